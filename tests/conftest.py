@@ -93,16 +93,16 @@ def tiny_osm(seed: int = 0, depth_m: int | None = None) -> str:
         body += "".join(f'<tag k="{k.replace("__", ":")}" v="{v}"/>' for k, v in tags.items())
         ways.append(f'<way id="{len(ways) + 1}" version="1">{body}</way>')
 
-    for i, at in enumerate(range(0, SIZE_M + 1, 60)):
-        if at <= depth_m:
+    for i, offset_m in enumerate(range(0, SIZE_M + 1, 60)):
+        if offset_m <= depth_m:
             for half in (0, SIZE_M / 2):  # each street in two ways that touch
                 way(
-                    [node(half, at), node(half + SIZE_M / 2, at)],
+                    [node(half, offset_m), node(half + SIZE_M / 2, offset_m)],
                     highway="residential",
                     name=f"East Street {i}",
                     surface="asphalt",
                 )
-        way([node(at, 0), node(at, depth_m)], highway="footway", name=f"North Path {i}")
+        way([node(offset_m, 0), node(offset_m, depth_m)], highway="footway", name=f"North Path {i}")
     for x in range(0, SIZE_M, 60):
         for y in range(0, depth_m, 60):
             colour = ["red", "#ffffff", "brown", ""][rng.integers(4)]
@@ -164,11 +164,11 @@ def scan(osm_file: Path, city: CityMap) -> CityMap:
     xyz: dict[str | None, list[Any]] = {}
     with TemporaryDirectory() as directory:
         strips = FeatureStrips(Path(directory), read_features(osm_file, *read_frame_and_box(osm_file)))
-        found = FeatureInstances.join(strips)
+        joined = FeatureInstances.join(strips)
         placed = {each.number: each.feature for number in strips.numbers for each in strips.read(number)}
-    for number in np.argsort(found.rank):
-        if found.feature_instance[number] >= 0:
-            first = placed[found.first[found.feature_instance[number]]]
+    for number in np.argsort(joined.rank):
+        if joined.feature_instance[number] >= 0:
+            first = placed[joined.first[joined.feature_instance[number]]]
             solid = placed[number].solid(0, placed[number].base_m, placed[number].height_m)
             xyz.setdefault(first.source_id, []).append(sample_solid(solid))
     instances = tuple(
@@ -205,7 +205,7 @@ def regions(osm_file: Path, city: CityMap, geometry: MapGeometry, cells: CellTab
 
 
 @pytest.fixture(scope="session")
-def asked(source: MapSource) -> tuple[MapData, Queries]:
+def data_and_queries(source: MapSource) -> tuple[MapData, Queries]:
     """The town, and what it is asked."""
     return source.data, source.queries()
 

@@ -19,14 +19,14 @@ def kustomization(layer: str) -> Document:
 
 def built(layer: str) -> list[Document]:
     """All documents of a layer: its resources, patched by JSON patches, with the images it names."""
-    said = kustomization(layer)
+    layer_file = kustomization(layer)
     documents: list[Document] = []
-    for name in said["resources"]:
+    for name in layer_file["resources"]:
         path = (ROOT / layer / name).resolve()
         documents += built(path.name) if path.is_dir() else yaml.safe_load_all(path.read_text())
-    for patch in said.get("patches", ()):
+    for patch in layer_file.get("patches", ()):
         documents = _patched(documents, yaml.safe_load((ROOT / layer / patch["path"]).read_text()), patch["target"])
-    for image in said.get("images", ()):
+    for image in layer_file.get("images", ()):
         for container in containers(documents):
             if container["image"] == image["name"]:
                 container["image"] += f":{image['newTag']}"
@@ -77,5 +77,5 @@ def containers(documents: list[Document]) -> list[Document]:
 
 def one(documents: list[Document], kind: str, called: str = "hereabouts") -> Document:
     """The one of a kind and name."""
-    [found] = [document for document in documents if (document["kind"], name(document)) == (kind, called)]
-    return found
+    [only] = [document for document in documents if (document["kind"], name(document)) == (kind, called)]
+    return only

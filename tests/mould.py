@@ -125,16 +125,16 @@ class _Forks:
         with patch.object(conftest, "SIZE_M", SIZE_M):
             self._map.write_text(conftest.tiny_osm())
         save_retriever(Mncl(load_text_encoder(), MnclConfig(width=32, levels=("global",))), self._weights, {})
-        status, said = self.wait(self.fork(self.build, {"out": str(scratch / "index")}))
-        assert status == 0, said
+        status, output = self.wait(self.fork(self.build, {"out": str(scratch / "index")}))
+        assert status == 0, output
 
     def answer(self, do, pid=None, **order):
         return self.wait(pid) if do == "wait" else self.fork(getattr(self, do), order)
 
     def wait(self, pid):
         status = os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1])
-        with open(self._pipes.pop(pid), errors="replace") as said:
-            return status, "" if status < 0 else said.read()
+        with open(self._pipes.pop(pid), errors="replace") as output:
+            return status, "" if status < 0 else output.read()
 
     def end(self):
         for pid in self._pipes:

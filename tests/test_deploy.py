@@ -29,10 +29,10 @@ OF_MILVUS = {variable.removeprefix("HEREABOUTS_").lower() for variable in (URI, 
 OF_FILES = {"cache_dir"}  # as `models.files.cache_directory` reads it
 MADE = {("job", "hereabouts-index-3")}  # of a CronJob, by a command on the page
 PROBES = ("startupProbe", "livenessProbe", "readinessProbe")
-BESIDE = {name: list(yaml.safe_load_all((ROOT / name).read_text())) for name in ("maps.yaml", "shards.yaml")}
+EXTRA_FILES = {name: list(yaml.safe_load_all((ROOT / name).read_text())) for name in ("maps.yaml", "shards.yaml")}
 ALL = [
     *((layer, document) for layer in LAYERS for document in built(layer)),
-    *((name.removesuffix(".yaml"), document) for name, documents in BESIDE.items() for document in documents),
+    *((name.removesuffix(".yaml"), document) for name, documents in EXTRA_FILES.items() for document in documents),
 ]
 IDS = [f"{layer}-{document['kind']}-{name(document)}" for layer, document in ALL]
 
@@ -61,11 +61,11 @@ def test_a_manifest_is_what_a_cluster_takes(layer, document, version) -> None:
 
 @pytest.mark.parametrize("layer", LAYERS)
 def test_every_file_is_used(layer) -> None:
-    said = kustomization(layer)
-    used = [*said["resources"], *(patch["path"] for patch in said.get("patches", ()))]
+    layer_file = kustomization(layer)
+    used = [*layer_file["resources"], *(patch["path"] for patch in layer_file.get("patches", ()))]
     files = [path.name for path in (ROOT / layer).iterdir() if path.name != "kustomization.yaml"]
     assert sorted(each for each in used if not each.startswith("../")) == sorted(files)
-    assert {path.name for path in ROOT.iterdir()} == {*LAYERS, *BESIDE}
+    assert {path.name for path in ROOT.iterdir()} == {*LAYERS, *EXTRA_FILES}
 
 
 @pytest.mark.parametrize("layer", LAYERS)
@@ -137,7 +137,7 @@ def test_an_index_is_built_as_with_compose(layer) -> None:
 
 
 def test_shards_are_shared_out_and_then_merged() -> None:
-    shards, merge = (one(BESIDE["shards.yaml"], "Job", f"hereabouts-{called}") for called in ("shards", "merge"))
+    shards, merge = (one(EXTRA_FILES["shards.yaml"], "Job", f"hereabouts-{called}") for called in ("shards", "merge"))
     count = shards["spec"]["completions"]
     assert (shards["spec"]["completionMode"], merge["spec"]["suspend"]) == ("Indexed", True)
     [sharing], [merging] = containers([shards]), containers([merge])
@@ -208,9 +208,9 @@ def test_probes_ask_what_is_there_and_open() -> None:
     container = api("base")
     [port] = container["ports"]
     for probe in PROBES:
-        asked = container[probe]["httpGet"]
-        assert routes[asked["path"]].openapi_extra == OPEN, "a probe has no key"
-        assert asked["port"] == port["name"]
+        request = container[probe]["httpGet"]
+        assert routes[request["path"]].openapi_extra == OPEN, "a probe has no key"
+        assert request["port"] == port["name"]
     assert port["containerPort"] == int(option(command_of("CMD"), "--port"))
     assert one(built("base"), "Service")["spec"]["ports"][0]["targetPort"] == port["name"]
     policy = one(built("base"), "NetworkPolicy")["spec"]
@@ -254,13 +254,13 @@ def test_the_page_names_what_is_there() -> None:
     text = (DOCS / "deploy.md").read_text()
     counted = create_app(Settings(), lambda: pytest.fail("is not opened")).state.metrics.response().body.decode()
     families = set(re.findall(r"^# TYPE (hereabouts_\w+?)(?:_total)? ", counted, re.MULTILINE))
-    told = {re.sub("_(total|bucket|count)$", "", word) for word in re.findall(r"\bhereabouts_\w+", text)}
-    assert told == {family for family in families if not family.endswith("_created")}
+    documented = {re.sub("_(total|bucket|count)$", "", word) for word in re.findall(r"\bhereabouts_\w+", text)}
+    assert documented == {family for family in families if not family.endswith("_created")}
     there = {(document["kind"].lower(), name(document)) for _, document in ALL}
     named = set(re.findall(r"\b(cronjob|deployment|job)/([\w-]+)", text)) - MADE
     assert named
     assert named <= there
-    assert set(re.findall(r"docker/kubernetes/([\w.]+)", text)) == {*LAYERS, *BESIDE}
+    assert set(re.findall(r"docker/kubernetes/([\w.]+)", text)) == {*LAYERS, *EXTRA_FILES}
     settings = {field.upper() for field in Settings.model_fields}
     others = {field.upper() for field in OF_MILVUS | OF_FILES}
     assert settings <= set(re.findall(r"HEREABOUTS_(\w+)", text)) <= settings | others

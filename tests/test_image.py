@@ -132,7 +132,7 @@ class Confined:
         variables = {name: value.replace("/tmp/", f"{scratch}/") for name, value in image.items() if name != "PATH"}
         self.environ = variables | own | {"PATH": os.environ["PATH"], "HEREABOUTS_WORKERS": "1"}
         _copy_code(Path(variables["NUMBA_CACHE_DIR"]))
-        self.cwd, self.said = home, scratch.with_name("said")
+        self.cwd, self.log = home, scratch.with_name("said")
 
     def start(self, words: list[str], **variables: str) -> "subprocess.Popen[bytes]":
         """A process; what it says is in `said`."""
@@ -140,9 +140,9 @@ class Confined:
         caps = [f"--{kind}-caps=-all,+dac_read_search" for kind in ("inh", "ambient")]
         # Without the bit access(2), by which options are checked, takes no heed of capabilities.
         privileges = ["setpriv", *user, *caps, "--securebits=+no_setuid_fixup"]
-        with self.said.open("wb") as said:
+        with self.log.open("wb") as log:
             return subprocess.Popen(
-                [*privileges, *words], env=self.environ | variables, cwd=self.cwd, stdout=said, stderr=said
+                [*privileges, *words], env=self.environ | variables, cwd=self.cwd, stdout=log, stderr=log
             )
 
     def run(self, words: list[str], **variables: str) -> int:
@@ -151,17 +151,17 @@ class Confined:
 
     def lines(self) -> list[dict[str, Any]]:
         """What a service has logged."""
-        return [json.loads(line) for line in self.said.read_text().splitlines(keepends=True) if line.endswith("\n")]
+        return [json.loads(line) for line in self.log.read_text().splitlines(keepends=True) if line.endswith("\n")]
 
 
 def _copy_code(cache: Path) -> None:
     """Put what was compiled here already where the image's start puts what was compiled with it."""
     for room in [*ROOT.glob("models/**/__pycache__"), *ROOT.glob("index/**/__pycache__")]:
         for code in room.glob("*/*/*.nb[ci]"):
-            kept = cache / code.relative_to(room)
-            kept.parent.mkdir(parents=True, exist_ok=True)
+            copy = cache / code.relative_to(room)
+            copy.parent.mkdir(parents=True, exist_ok=True)
             with suppress(FileNotFoundError):  # exchanged by another test at this moment
-                shutil.copy2(code, kept)
+                shutil.copy2(code, copy)
     for path in [cache, *cache.rglob("*")] if cache.exists() else []:
         os.chown(path, NOBODY, NOBODY)
 
@@ -196,7 +196,7 @@ def test_the_service_answers_and_ends_with_one_writable_directory(confined, inde
         answer = httpx.post(f"{url}localize", json={"description": TEXT}, timeout=60)
         assert answer.status_code == 200, answer.text
         process.terminate()
-        assert process.wait(60) == 0, confined.said.read_text()
+        assert process.wait(60) == 0, confined.log.read_text()
         assert [line for line in confined.lines() if line["level"] != "info"] == []
     finally:
         process.kill()
@@ -209,5 +209,5 @@ def test_an_index_is_built_with_one_writable_directory(confined, osm_file, weigh
     words = ["hereabouts", *SERVICES["index"]["command"][1:]]
     words[words.index("--map") + 1], words[words.index("--out") + 1] = str(osm_file), str(out)
     done = confined.run(run_here(words), HEREABOUTS_WEIGHTS_DIR=str(weights_dir))
-    assert done == 0, confined.said.read_text()
+    assert done == 0, confined.log.read_text()
     assert (out / "aliases.json").is_file()

@@ -72,17 +72,17 @@ WITHOUT_TORCH = [
 
 def imported(path: Path) -> set[str]:
     """The modules that a file imports anywhere in it; of `from a import b`, a.b where that is a module."""
-    found = set()
+    result = set()
     for node in ast.walk(ast.parse(path.read_text())):
         if isinstance(node, ast.Import):
-            found |= {alias.name for alias in node.names}
+            result |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
             assert not node.level, f"{path}: imports are absolute"
-            found |= {
+            result |= {
                 node.module if not _is_module(f"{node.module}.{a.name}") else f"{node.module}.{a.name}"
                 for a in node.names
             }
-    return found
+    return result
 
 
 def _is_module(name: str) -> bool:

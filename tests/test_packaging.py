@@ -18,9 +18,9 @@ MOST_BYTES = 20_000_000  # of weights that ship
 
 
 def test_every_package_is_found() -> None:
-    found = {p for where in SETUPTOOLS["packages"]["find"]["where"] for p in _packages(where)}
+    packages = {p for where in SETUPTOOLS["packages"]["find"]["where"] for p in _packages(where)}
     ours = {".".join(p.parent.relative_to(ROOT).parts) for top in TOP for p in ROOT.glob(f"{top}/**/*.py")}
-    assert found == ours - {"app.public.hereabouts"} | {"hereabouts"}
+    assert packages == ours - {"app.public.hereabouts"} | {"hereabouts"}
 
 
 def _packages(where: str) -> list[str]:

@@ -70,10 +70,10 @@ def main(path: str) -> None:
         "index.evaluation.evaluation",
     ):
         importlib.import_module(module)
-    with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as asked, selectors.DefaultSelector() as events:
-        asked.bind(path)
-        asked.listen()
-        events.register(asked, selectors.EVENT_READ)
+    with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as listener, selectors.DefaultSelector() as events:
+        listener.bind(path)
+        listener.listen()
+        events.register(listener, selectors.EVENT_READ)
         events.register(sys.stdin, selectors.EVENT_READ)
         print("warm", flush=True)
         running: dict[int, tuple[int, socket.socket]] = {}  # by process: its descriptor, and who asked for it
@@ -83,8 +83,8 @@ def main(path: str) -> None:
                     for pid in running:
                         _kill(pid)
                     return
-                if key.fileobj is asked:
-                    starter = asked.accept()[0]
+                if key.fileobj is listener:
+                    starter = listener.accept()[0]
                     pid = _fork(*socket.recv_fds(starter, 1 << 20, 4)[:2])
                     running[pid] = ended, _ = os.pidfd_open(pid), starter
                     for one in (ended, starter):

@@ -106,10 +106,13 @@ WHOLE: dict[str, list[Any]] = {  # bodies that are no good as a whole
         *({"hints": value} for value in (None, MARK, {}, [5], [None], [[MARK]], [MARK, True], [MARK] * 33)),
         *({"hints": [MARK, text]} for text in TEXTS[::3]),
         *({"hints": [MARK * 240, MARK * 240]}, {"hints": ["1. "]}),
-        *({"description": MARK, "crs": "wgs84", "prior": {"position": at, "sigma_m": 5}} for at in NOT_ON_EARTH),
         *(
-            {"description": MARK, "crs": "wgs84", "within": {"circle": CIRCLE | {"center": at}}}
-            for at in NOT_ON_EARTH[::3]
+            {"description": MARK, "crs": "wgs84", "prior": {"position": position, "sigma_m": 5}}
+            for position in NOT_ON_EARTH
+        ),
+        *(
+            {"description": MARK, "crs": "wgs84", "within": {"circle": CIRCLE | {"center": position}}}
+            for position in NOT_ON_EARTH[::3]
         ),
         *({"description": MARK, "crs": "wgs84", "within": {"bbox": box}} for box in ([0, 0, 200, 1], [0, -91, 1, 1])),
         *({"description": MARK, "answers": [TREE], "refine": refine} for refine in ("none", "matching", "regressor")),
@@ -118,11 +121,14 @@ WHOLE: dict[str, list[Any]] = {  # bodies that are no good as a whole
     ],
     "POST /localize/batch": [{"items": [5] * 64}],
     "POST /describe": [
-        *({"position": at, "crs": "wgs84"} for at in (*NOT_ON_EARTH, [30, 60])),
+        *({"position": position, "crs": "wgs84"} for position in (*NOT_ON_EARTH, [30, 60])),
         b'{"position": [-1e999, 98.7654321]}',
     ],
     "POST /evaluate": [
-        *({"queries": [{"description": MARK, "position": at}], "crs": "wgs84"} for at in NOT_ON_EARTH[1::3]),
+        *(
+            {"queries": [{"description": MARK, "position": position}], "crs": "wgs84"}
+            for position in NOT_ON_EARTH[1::3]
+        ),
         *({"data": value} for value in (*NO_TEXT, "", *NAMES[3:8], "town.osm\0", "town/../town")),
         *({"data": "town", "split": value} for value in (*NO_TEXT, "", "../x", ODD, "test test", "test\n")),
         *({"data": "town", "crs": "map"}, {"queries": [{}] * 100}),

@@ -199,9 +199,9 @@ def refused():
         if isinstance(error, Problem):
             assert error.code is Code.INVALID_REQUEST
             return [wrong.field for wrong in error.errors], error.detail
-        found = error.errors()
-        fields = [field_name(("body", *wrong["loc"]), wrong.get("ctx", {})) for wrong in found]
-        return fields, " ".join(wrong["msg"] for wrong in found)
+        details = error.errors()
+        fields = [field_name(("body", *wrong["loc"]), wrong.get("ctx", {})) for wrong in details]
+        return fields, " ".join(wrong["msg"] for wrong in details)
 
     return check
 

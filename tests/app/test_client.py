@@ -24,7 +24,7 @@ def url(in_a_thread):
 def both(url, ask, **options):
     """What the two kinds of client answer, or raise."""
 
-    async def asked():
+    async def ask_async():
         async with AsyncClient(url, "a-read-key", **options) as client:
             return await ask(client)
 
@@ -35,17 +35,17 @@ def both(url, ask, **options):
             return error
 
     with Client(url, "a-read-key", **options) as client:
-        return outcome(lambda: ask(client)), outcome(lambda: asyncio.run(asked()))
+        return outcome(lambda: ask(client)), outcome(lambda: asyncio.run(ask_async()))
 
 
 def test_answers_are_typed(url):
-    for found in both(url, lambda client: client.localize(TEXT, top_k=1)):
-        assert found.status == "ok"
-        assert found.estimate.wgs84.lat == 60.17
-        assert found.candidates[0].cell_id == "fakeville_00001"
-        assert len(found.candidates) == 1
-    for said in both(url, lambda client: client.describe((24.94, 60.17), "wgs84")):
-        assert said.place == "on Main Street"
+    for result in both(url, lambda client: client.localize(TEXT, top_k=1)):
+        assert result.status == "ok"
+        assert result.estimate.wgs84.lat == 60.17
+        assert result.candidates[0].cell_id == "fakeville_00001"
+        assert len(result.candidates) == 1
+    for described in both(url, lambda client: client.describe((24.94, 60.17), "wgs84")):
+        assert described.place == "on Main Street"
     for info in both(url, lambda client: client.info()):
         assert info.key_required
 
@@ -55,8 +55,8 @@ def test_hints_and_options_arrive(url):
         "prior": {"position": [1.0, 2.0], "sigma_m": 50.0}, "within": {"bbox": [-9.0, -9.0, 9.0, 9.0]},
         "refine": "posterior", "heat_map": True, "answers": {"q1": "yes"}, "deadline_ms": 5000, "index": "default",
     }  # fmt: skip
-    for found in both(url, lambda client: client.localize(["a tree", "a pole"], **options)):
-        assert found.status == "ok"
+    for result in both(url, lambda client: client.localize(["a tree", "a pole"], **options)):
+        assert result.status == "ok"
 
 
 def test_what_is_refused_says_why(url):
@@ -88,20 +88,20 @@ def test_what_is_busy_is_asked_again_when_it_says(url, monkeypatch, status, code
     problem = {"code": code, "detail": "busy", "request_id": "r"}
     answers = [httpx.Response(status, json=problem, headers={"Retry-After": str(n)}) for n in (2, 90)]
     answers.append(httpx.Response(200, content=httpx.get(f"{url}/info").content))
-    asked = []
+    requests = []
 
     def answer(request):
-        asked.append(json.loads(request.content or b"null"))
-        return answers[len(asked) - 1]
+        requests.append(json.loads(request.content or b"null"))
+        return answers[len(requests) - 1]
 
     with Client("http://x", transport=httpx.MockTransport(answer)) as client:
         assert client.info().service == "hereabouts"
     assert waited == [2, 30]
-    asked.clear()
+    requests.clear()
     few = Client("http://x", tries=2, transport=httpx.MockTransport(answer))
     with few as client, pytest.raises(ServiceError, match=code):
         client.info()
-    assert len(asked) == 2
+    assert len(requests) == 2
 
 
 def test_it_brings_no_torch():

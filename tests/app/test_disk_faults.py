@@ -79,10 +79,10 @@ def listing(root):
 def test_an_index_that_cannot_be_written_is_said_and_what_is_there_stays(mould, root, limits):
     before = listing(root), open_version(root)
     with disk(root, limits):
-        status, said = mould.wait(mould.build(root, **limits))
+        status, output = mould.wait(mould.build(root, **limits))
     assert status == 1
-    assert f"{root} cannot be written" in " ".join(said.split())
-    assert "Traceback" not in said
+    assert f"{root} cannot be written" in " ".join(output.split())
+    assert "Traceback" not in output
     assert (listing(root), open_version(root)) == before
     assert not list(root.glob(f"{TEMP_PREFIX}*"))
 
@@ -92,8 +92,8 @@ def test_a_service_that_cannot_write_says_so_and_answers_as_before(serve, root, 
     default = read_aliases(root).aliases["default"]
     evaluation = {"queries": [{"hints": ["held"], "position": [1, 2]}]}
     with serve(root) as api:
-        held = api.post("/evaluate", json=evaluation).json()["job"]
-        until(lambda: api.get(f"/evaluate/{held}").json()["status"] == "running")
+        running = api.post("/evaluate", json=evaluation).json()["job"]
+        until(lambda: api.get(f"/evaluate/{running}").json()["status"] == "running")
     before = listing(root.parent)
     with disk(root.parent, limits), serve(root, **limits) as api:
         assert api.get("/indexes").json()["aliases"] == {"default": default}
@@ -103,7 +103,7 @@ def test_a_service_that_cannot_write_says_so_and_answers_as_before(serve, root, 
         assert (answer.status_code, answer.json()["provenance"]["index_version"]) == (200, default)
     assert listing(root.parent) == before
     with serve(root) as api:
-        assert api.get(f"/evaluate/{held}").json()["status"] == "interrupted"
+        assert api.get(f"/evaluate/{running}").json()["status"] == "interrupted"
         assert api.post("/evaluate", json=evaluation).is_success
 
 
@@ -112,10 +112,10 @@ def test_an_alias_that_cannot_be_written_is_said_and_the_old_one_stays(mould, ro
     add(root, "copied")
     before = listing(root), read_aliases(root)
     with disk(root, limits):
-        status, said = mould.wait(mould.set_alias(root, "default", "copied", **limits))
+        status, output = mould.wait(mould.set_alias(root, "default", "copied", **limits))
     assert status == 1
-    assert f"{root} cannot be written" in " ".join(said.split())
-    assert "Traceback" not in said
+    assert f"{root} cannot be written" in " ".join(output.split())
+    assert "Traceback" not in output
     assert (listing(root), read_aliases(root)) == before
     assert mould.wait(mould.set_alias(root, "default", "copied"))[0] == 0
     assert read_aliases(root).aliases == {"default": "copied"}

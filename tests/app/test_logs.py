@@ -24,14 +24,14 @@ TEXT = f"I am north of a gray building, {SECRET}. A black pole is to my west."
 
 @pytest.mark.parametrize("level", ["debug", "info", "warning", "error"])
 def test_faiss_tells_which_build_it_loads_when_debugging_alone(level, logged) -> None:
-    said = logged(level)
+    read_log = logged(level)
     loader = logging.getLogger("faiss.loader")
     loader.info("Loading faiss with AVX2 support.")
-    assert ("AVX2" in said()) == (level == "debug")
+    assert ("AVX2" in read_log()) == (level == "debug")
     loader.warning("it is broken")
-    assert ("broken" in said()) == (level != "error")
+    assert ("broken" in read_log()) == (level != "error")
     logging.getLogger("app").info("ours")
-    assert ("ours" in said()) == (level in ("debug", "info"))
+    assert ("ours" in read_log()) == (level in ("debug", "info"))
 
 
 @contextmanager
@@ -97,13 +97,13 @@ def asked_too_much(here, fake, until):
 
 def requests(lines):
     """The lines of requests, but for those that look how it goes."""
-    found = [json.loads(line) for line in lines.splitlines()]
+    entries = [json.loads(line) for line in lines.splitlines()]
     looks = ("/readyz", "/metrics")
-    return [line for line in found if line["event"] == "request" and line["route"] not in looks]
+    return [line for line in entries if line["event"] == "request" and line["route"] not in looks]
 
 
 def test_no_line_has_what_was_said_however_the_request_ends(logged, in_a_thread, until, monkeypatch):
-    said, fake = logged(), FakeLocalizer()
+    read_log, fake = logged(), FakeLocalizer()
     with client(in_a_thread, Settings(), FakeLocalizer()) as here:
         statuses = {response.status_code for response in asked_well_and_wrongly(here)}
     monkeypatch.setattr(limits, "MAX_WAITING_QUERIES", 1)
@@ -111,7 +111,7 @@ def test_no_line_has_what_was_said_however_the_request_ends(logged, in_a_thread,
         statuses |= {response.status_code for response in asked_too_much(here, fake, until)}
     with client(in_a_thread, Settings(read_key="long-enough"), fake) as here:
         assert here.post("/localize", json={"description": TEXT}, headers={"X-API-Key": SECRET}).status_code == 401
-    lines = said()
+    lines = read_log()
     assert statuses == {200, 400, 404, 406, 413, 415, 422, 429, 500, 504}
     assert {line["status"] for line in requests(lines)} == statuses | {401, 499}
     faults = {
@@ -122,7 +122,7 @@ def test_no_line_has_what_was_said_however_the_request_ends(logged, in_a_thread,
 
 
 def test_lines_have_what_was_said_where_the_operator_wants_it(logged, in_a_thread):
-    said = logged(with_messages=True)
+    read_log = logged(with_messages=True)
     with client(in_a_thread, Settings(log_descriptions=True), FakeLocalizer()) as here:
         here.post("/localize", json={"description": f'{TEXT}\n{{"event": "forged"}}'})
         here.post("/localize", json={"hints": ["A tree.", "A bench."]})
@@ -130,7 +130,7 @@ def test_lines_have_what_was_said_where_the_operator_wants_it(logged, in_a_threa
         here.post("/localize/batch", json={"items": [{"description": "A tree."}, {"description": TEXT}]})
         here.post("/localize", json={"description": f"bad {TEXT}"})
         here.post("/describe", json={"position": [0, 0]})
-    lines = said()
+    lines = read_log()
     assert [line.get("descriptions") for line in requests(lines)] == [
         [f'{TEXT}\n{{"event": "forged"}}'], ["A tree.\nA bench."], [TEXT], ["A tree.", TEXT], [f"bad {TEXT}"], None,
     ]  # fmt: skip

@@ -128,9 +128,9 @@ def test_nothing_found_is_said(url):
         async with AsyncClient(url) as client, Agent(build_server(client)) as agent:
             return (await agent.call_tool("localize", {"description": "nowhere"})).structured_content
 
-    found = asyncio.run(run())
-    assert (found["status"], found["best"]) == ("no_match", None)
-    assert found["summary"] == "Not found. nothing there"
+    result = asyncio.run(run())
+    assert (result["status"], result["best"]) == ("no_match", None)
+    assert result["summary"] == "Not found. nothing there"
 
 
 def test_a_rough_position_is_a_bias(url):

@@ -29,8 +29,10 @@ def test_links_lead_somewhere(page):
 def test_files_that_pages_and_the_picture_name_are_there():
     named = set()
     for page in (*PAGES, ROOT / "docs/draw_flows.py"):
-        found = re.findall(r"\b((?:app|index|models|docs|tests)/[\w./]*\w\.(?:py|toml|md|json))\b", page.read_text())
-        named |= {name for name in found if "/NAME." not in name}
+        references = re.findall(
+            r"\b((?:app|index|models|docs|tests)/[\w./]*\w\.(?:py|toml|md|json))\b", page.read_text()
+        )
+        named |= {name for name in references if "/NAME." not in name}
     assert len(named) > 30
     assert [name for name in sorted(named) if not (ROOT / name).exists()] == []
 

@@ -29,8 +29,8 @@ def rng():
 
 def flipped(whole, rng):
     """The same with another bit somewhere."""
-    at = rng.randrange(len(whole))
-    return whole[:at] + bytes([whole[at] ^ 1 << rng.randrange(8)]) + whole[at + 1 :]
+    position = rng.randrange(len(whole))
+    return whole[:position] + bytes([whole[position] ^ 1 << rng.randrange(8)]) + whole[position + 1 :]
 
 
 def test_every_file_that_is_cut_flipped_or_missing_is_refused_by_name(copy, rng) -> None:

@@ -26,14 +26,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--kills", type=int, default=200)
     parser.add_argument("--seed", type=int, default=7)
-    asked = parser.parse_args()
+    arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
         try:
-            for counts in run(asked.kills, asked.seed, Path(scratch)):
+            for counts in run(arguments.kills, arguments.seed, Path(scratch)):
                 print(json.dumps(counts), flush=True)
         except Exception as wrong:
             traceback.print_exc()
-            print(json.dumps({"wrong": str(wrong), "seed": asked.seed}), flush=True)
+            print(json.dumps({"wrong": str(wrong), "seed": arguments.seed}), flush=True)
             return 1
     return 0
 

@@ -159,8 +159,8 @@ class Build(Operation):
             self._wait_until_it_writes(pid)
             length_s, begun_s = self.writes_s, time.monotonic()
         with killing(pid, share and share * length_s):
-            status, said = self.place.mould.wait(pid)
-        assert status in (0, -signal.SIGKILL), said
+            status, output = self.place.mould.wait(pid)
+        assert status in (0, -signal.SIGKILL), output
         if share is None:
             self.takes_s, self.writes_s = time.monotonic() - started_s, time.monotonic() - begun_s
         return status == 0
@@ -190,8 +190,8 @@ class Switch(Operation):
         started_s = time.monotonic()
         pid = self.place.mould.set_alias(self.place.root, "default", self.version)
         with killing(pid, share and share * self.takes_s):
-            status, said = self.place.mould.wait(pid)
-        assert status in (0, -signal.SIGKILL), said
+            status, output = self.place.mould.wait(pid)
+        assert status in (0, -signal.SIGKILL), output
         if share is None:
             self.takes_s = time.monotonic() - started_s
         self.takes_s *= SHORTER if status == 0 else LONGER

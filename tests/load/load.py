@@ -103,9 +103,9 @@ class Load:
         async def arrive(into: Figures) -> None:
             begun = time.monotonic()
             async with asyncio.TaskGroup() as group:
-                at = 0.0
-                while (at := at + self._rng.expovariate(rate)) < seconds:
-                    await asyncio.sleep(begun + at - time.monotonic())
+                due_s = 0.0
+                while (due_s := due_s + self._rng.expovariate(rate)) < seconds:
+                    await asyncio.sleep(begun + due_s - time.monotonic())
                     group.create_task(self._ask(into))
 
         return await self._timed(lambda into: [arrive(into)])
@@ -138,7 +138,7 @@ class Load:
 
 def health_ms(url: str, stop: Any) -> list[float]:
     """Milliseconds of GET /healthz, ten times a second until told to stop; for a thread of its own."""
-    found = []
+    measured = []
     with closing(HTTPConnection(url.removeprefix("http://"))) as client:
         while not stop.is_set():
             begun = time.monotonic()
@@ -146,9 +146,9 @@ def health_ms(url: str, stop: Any) -> list[float]:
             answer = client.getresponse()
             answer.read()
             assert answer.status == HTTPStatus.OK
-            found.append((time.monotonic() - begun) * 1000)
+            measured.append((time.monotonic() - begun) * 1000)
             time.sleep(0.1)
-    return found
+    return measured
 
 
 @dataclass
@@ -187,11 +187,11 @@ class Overload:
 
 async def measure(load: Load, url: str, seconds: float) -> bool:
     """All of it; whether every bound is kept."""
-    kept = True
+    is_kept = True
 
     def note(name: str, figures: Figures, bounds: dict[str, bool], **more: float) -> None:
-        nonlocal kept
-        kept = kept and all(bounds.values())
+        nonlocal is_kept
+        is_kept = is_kept and all(bounds.values())
         rounded = {what: round(value, 2) for what, value in more.items()}
         print(json.dumps({"load": name, **figures.shown(), **rounded, "kept": bounds}), flush=True)
 
@@ -211,11 +211,11 @@ async def measure(load: Load, url: str, seconds: float) -> bool:
     p50, p99 = usual.percentile_ms(50), usual.percentile_ms(99)
     note("0.7 of the knee", usual, {"no error": set(usual.statuses) == {200}, "p99 under 5 p50": p99 < 5 * p50})
     with subprocess.Popen((sys.executable, "-c", BUSY)) as busy:
-        beside = await load.clients(1, 20)
+        unloaded = await load.clients(1, 20)
         busy.kill()
-    slower = beside.percentile_ms(50) / alone.percentile_ms(50)
-    note("beside a busy process", beside, {"p50 at most twice": slower <= 2}, times_alone=slower)
-    return kept
+    slower = unloaded.percentile_ms(50) / alone.percentile_ms(50)
+    note("beside a busy process", unloaded, {"p50 at most twice": slower <= 2}, times_alone=slower)
+    return is_kept
 
 
 def main() -> int:
@@ -223,9 +223,9 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--index", default="data/index")
     parser.add_argument("--seconds", type=float, default=600, help="at 0.7 of the knee")
-    asked = parser.parse_args()
-    with started(asked.index) as (_, url):
-        return int(not asyncio.run(measured(url, asked.seconds)))
+    arguments = parser.parse_args()
+    with started(arguments.index) as (_, url):
+        return int(not asyncio.run(measured(url, arguments.seconds)))
 
 
 async def measured(url: str, seconds: float) -> bool:

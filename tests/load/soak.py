@@ -33,10 +33,10 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--index", default="data/index")
     parser.add_argument("--requests", type=int, default=100_000)
-    asked = parser.parse_args()
-    share = asked.requests // (STOPS * CLIENTS)
+    arguments = parser.parse_args()
+    share = arguments.requests // (STOPS * CLIENTS)
     points = []
-    with started(asked.index) as (pid, url), ThreadPoolExecutor(CLIENTS) as pool:
+    with started(arguments.index) as (pid, url), ThreadPoolExecutor(CLIENTS) as pool:
         for stop in range(1, STOPS + 1):
             seeds = [f"{stop} {client}" for client in range(CLIENTS)]
             statuses = sum(pool.map(partial(ask, url, share), seeds), Counter())

@@ -44,11 +44,11 @@ def test_a_city_of_two_copies_is_measured_whole(run, osm_file, cells, tmp_path, 
     assert size["serve"]["ready_seconds"] > 0.5
     assert min(size["serve"]["memory_mib"].values()) > 150, "the workers count, which torch is in"
     for name in ("anywhere", *questions.WITHIN):
-        asked = size["localize"][name]
-        assert 0 < asked["p50"] <= asked["p99"]
-        assert asked["unanswered"] == 0
-        assert asked["accuracy"]["queries"] == 2
-        assert asked["accuracy"]["within_30_m"] <= asked["accuracy_in_any_copy"]["within_30_m"]
+        queries = size["localize"][name]
+        assert 0 < queries["p50"] <= queries["p99"]
+        assert queries["unanswered"] == 0
+        assert queries["accuracy"]["queries"] == 2
+        assert queries["accuracy"]["within_30_m"] <= queries["accuracy_in_any_copy"]["within_30_m"]
     assert size["localize"]["within_0.1_percent"]["accuracy"]["within_30_m"] == 1, "the box is 20 m wide"
     assert "p50" not in size["localize"]["with_street"]
     assert all(size["one_thread"][part] > 0 for part in PARTS)
@@ -91,7 +91,7 @@ def test_out_without_cells_is_refused(run, osm_file, tmp_path) -> None:
 
 
 def test_what_fails_is_told_with_what_was_measured(run, osm_file, cells, monkeypatch, tmp_path) -> None:
-    def measured(extract, copies, asked, scratch):
+    def measured(extract, copies, queries, scratch):
         if copies > 1:
             raise HereaboutsError("too large")
         return {"cells": len(cells), "index": {"seconds": 2.0}}
@@ -135,11 +135,11 @@ def test_milvus_is_asked_the_same_and_leaves_nothing(localizer, monkeypatch) -> 
     pytest.importorskip("pymilvus")
     pytest.importorskip("milvus_lite")
     monkeypatch.delenv("HEREABOUTS_MILVUS_URI", raising=False)
-    found = searches.measure_searches(localizer, [("I am north of a bench.",), ("A tree is to my west.",)])
-    assert found["milvus"]["kind"] == "milvus-lite"
-    assert found["milvus"]["ms"] > 0
-    assert found["faiss_ms"] > 0
-    assert found["found"] == 1.0
+    figures = searches.measure_searches(localizer, [("I am north of a bench.",), ("A tree is to my west.",)])
+    assert figures["milvus"]["kind"] == "milvus-lite"
+    assert figures["milvus"]["ms"] > 0
+    assert figures["faiss_ms"] > 0
+    assert figures["found"] == 1.0
     assert "HEREABOUTS_MILVUS_URI" not in searches.os.environ
     monkeypatch.setenv("HEREABOUTS_MILVUS_URI", "http://127.0.0.1:9/none")
     assert "Milvus cannot" in searches.measure_searches(localizer, [("A tree is to my west.",)])["milvus"]

@@ -18,34 +18,37 @@ FAR = 0.001  # degrees of latitude, some 111 m
 
 
 @pytest.fixture
-def asked(monkeypatch) -> list[BenchmarkQuery]:
+def benchmark_queries(monkeypatch) -> list[BenchmarkQuery]:
     monkeypatch.setattr(questions, "QUERIES_PER_KIND", 4)
     monkeypatch.setattr(questions, "WARM_UP", 1)
     return [BenchmarkQuery((f"hint {n}",), "High Road" if n % 2 else None, LAT, LON) for n in range(17)]
 
 
-def ask(asked, answer) -> tuple[dict, list[dict]]:
+def ask(benchmark_queries, answer) -> tuple[dict, list[dict]]:
     """Run `localize_all` on a service that answers by `answer` (body -> estimate or status); return also the bodies."""
     bodies = []
 
     def respond(request: httpx.Request) -> httpx.Response:
         bodies.append(json.loads(request.content))
-        found = answer(bodies[-1])
-        return httpx.Response(found) if isinstance(found, int) else httpx.Response(200, json={"estimate": found})
+        figures = answer(bodies[-1])
+        return httpx.Response(figures) if isinstance(figures, int) else httpx.Response(200, json={"estimate": figures})
 
     with httpx.Client(transport=httpx.MockTransport(respond), base_url="http://a") as client:
-        return localize_all(client, asked, BLOCK), bodies
+        return localize_all(client, benchmark_queries, BLOCK), bodies
 
 
-def at(lat, lon) -> dict:
+def estimate_at(lat, lon) -> dict:
     return {"wgs84": {"lat": lat, "lon": lon}}
 
 
-def test_a_right_place_in_another_copy_is_right_in_any_copy_alone(asked) -> None:
+def test_a_right_place_in_another_copy_is_right_in_any_copy_alone(benchmark_queries) -> None:
     east, north = (units / 1e7 for units in BLOCK.shift(3))
     assert east > 0 or north > 0
-    found, _ = ask(asked, lambda body: at(LAT + north, LON + east) if "within" not in body else at(LAT, LON))
-    free, boxed = found["anywhere"], found["within_1_percent"]
+    figures, _ = ask(
+        benchmark_queries,
+        lambda body: estimate_at(LAT + north, LON + east) if "within" not in body else estimate_at(LAT, LON),
+    )
+    free, boxed = figures["anywhere"], figures["within_1_percent"]
     assert free["accuracy"]["within_30_m"] == 0
     assert free["accuracy"]["median_m"] == pytest.approx(
         Geod(ellps="WGS84").inv(LON, LAT, LON + east, LAT + north)[2], 1e-3
@@ -56,30 +59,33 @@ def test_a_right_place_in_another_copy_is_right_in_any_copy_alone(asked) -> None
     assert boxed["accuracy"] == boxed["accuracy_in_any_copy"] == free["accuracy_in_any_copy"]
 
 
-def test_shares_and_median_are_of_all_that_was_asked(asked) -> None:
-    places = iter([at(LAT, LON), at(LAT, LON), at(LAT + FAR / 5, LON), None, 503] + [429] * 100)
-    found, _ = ask(asked, lambda body: next(places))
-    free = found["anywhere"]  # after one to warm up with
+def test_shares_and_median_are_of_all_that_was_asked(benchmark_queries) -> None:
+    places = iter(
+        [estimate_at(LAT, LON), estimate_at(LAT, LON), estimate_at(LAT + FAR / 5, LON), None, 503] + [429] * 100
+    )
+    figures, _ = ask(benchmark_queries, lambda body: next(places))
+    free = figures["anywhere"]  # after one to warm up with
     assert free["unanswered"] == 1
     assert free["accuracy"] == {
         "queries": 4, "within_5_m": 0.25, "within_10_m": 0.25, "within_30_m": 0.5, "median_m": None,
     }  # fmt: skip
-    boxed = found["within_10_percent"]
+    boxed = figures["within_10_percent"]
     assert boxed["unanswered"] == 4
     assert boxed["p50"] is None
 
 
-def test_no_text_is_sent_twice_but_with_its_street(asked) -> None:
-    _, bodies = ask(asked, lambda body: at(LAT, LON))
+def test_no_text_is_sent_twice_but_with_its_street(benchmark_queries) -> None:
+    _, bodies = ask(benchmark_queries, lambda body: estimate_at(LAT, LON))
     first, streets = bodies[:-4], bodies[-4:]
     assert len({tuple(body["hints"]) for body in first}) == len(first) == 17
     assert [body["hints"] for body in streets] == [["hint 1", "I am on High Road."], ["hint 2"],
                                                    ["hint 3", "I am on High Road."], ["hint 4"]]  # fmt: skip
 
 
-def test_boxes_are_a_share_of_the_block_round_the_place_and_inside_it(asked) -> None:
+def test_boxes_are_a_share_of_the_block_round_the_place_and_inside_it(benchmark_queries) -> None:
     _, bodies = ask(
-        [*asked[:-1], BenchmarkQuery(("corner",), None, BOX[1] / 1e7, BOX[0] / 1e7)], lambda body: at(LAT, LON)
+        [*benchmark_queries[:-1], BenchmarkQuery(("corner",), None, BOX[1] / 1e7, BOX[0] / 1e7)],
+        lambda body: estimate_at(LAT, LON),
     )
     west, south, east, north = BLOCK.bounds()
     shares = []
@@ -112,4 +118,4 @@ def test_questions_are_of_the_split_and_always_the_same(source, regions) -> None
     assert queries.sentences[near] == one[0].hints
     warm, sorts = split_questions(one)
     assert len(warm) == questions.WARM_UP
-    assert len({len(some) for some in sorts}) == 1
+    assert len({len(kinds) for kinds in sorts}) == 1

@@ -39,9 +39,9 @@ def test_list_prints_aliases_then_versions_without_one(alias):
 
 
 def test_set_registers_a_copied_version_and_names_it(alias, root):
-    code, said, _ = alias("set", "canary", "copied")
+    code, message, _ = alias("set", "canary", "copied")
     assert code == 0
-    assert said.startswith("canary names copied; ")
+    assert message.startswith("canary names copied; ")
     assert alias("set", "default", "v2")[0] == 0
     known = read_aliases(root)
     assert known.aliases == {"canary": "copied", "default": "v2"}
@@ -50,15 +50,15 @@ def test_set_registers_a_copied_version_and_names_it(alias, root):
 
 def test_remove_takes_the_name_and_leaves_the_version(alias, root):
     alias("set", "canary", "v2")
-    code, said, _ = alias("remove", "canary")
+    code, message, _ = alias("remove", "canary")
     assert code == 0
-    assert said.startswith("canary is removed; ")
+    assert message.startswith("canary is removed; ")
     assert read_aliases(root).aliases == {"default": "v1"}
     assert alias("list")[1] == "default\tv1\n-\tcopied\n-\tv2\n"
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "message"),
     [
         (("set", "default", "v3"), "no version v3 in {root}; its versions are copied, v1, v2"),
         (("set", "default", "../v1"), "no version ../v1 in {root}"),
@@ -67,11 +67,11 @@ def test_remove_takes_the_name_and_leaves_the_version(alias, root):
         (("remove", "default"), "default cannot be removed; let it name another version with 'hereabouts alias set'"),
     ],
 )
-def test_what_cannot_be_done_is_one_line_and_changes_nothing(alias, root, arguments, said):
+def test_what_cannot_be_done_is_one_line_and_changes_nothing(alias, root, arguments, message):
     before = (root / "aliases.json").read_bytes()
     code, out, error = alias(*arguments)
     assert (code, out) == (1, "")
-    assert said.format(root=root) in error
+    assert message.format(root=root) in error
     assert (root / "aliases.json").read_bytes() == before
 
 
@@ -107,7 +107,7 @@ def test_a_directory_that_cannot_be_written_is_said_and_nothing_changes(alias, r
 
     monkeypatch.setattr(artifact, "replace_file", fails)
     for arguments in (("set", "default", "copied"), ("set", "default", "v2"), ("remove", "canary")):
-        code, _, said = alias(*arguments)
+        code, _, message = alias(*arguments)
         assert code == 1
-        assert f"{root} cannot be written" in said
+        assert f"{root} cannot be written" in message
     assert (root / "aliases.json").read_bytes() == before

@@ -83,11 +83,11 @@ def test_a_reader_is_kept_by_the_posterior_alone(run, prepared, tmp_path) -> Non
 
 
 def test_synth_gives_ground_one_number_unless_told_otherwise(run, tmp_path, monkeypatch) -> None:
-    asked = []
-    monkeypatch.setattr(towns, "write_towns", lambda *args: asked.append(args) or ("one",))
+    calls = []
+    monkeypatch.setattr(towns, "write_towns", lambda *args: calls.append(args) or ("one",))
     assert run("synth", "--out", tmp_path / "out").exit_code == 0
     assert run("synth", "--out", tmp_path / "out", "--pieces", "own").exit_code == 0
-    assert [args[-1] for args in asked] == ["official", "own"]
+    assert [args[-1] for args in calls] == ["official", "own"]
 
 
 def test_an_index_is_verified_whole_or_by_version(run, index_dir, tmp_path) -> None:

@@ -156,12 +156,12 @@ def test_import_is_light(module, heavy):
 
 def test_threads_are_set_before_any_command(opened, monkeypatch):
     monkeypatch.delenv("OMP_NUM_THREADS")
-    seen = []
+    records = []
     fake = FakeLocalizer()
-    fake.localize, answer = lambda q: seen.append(os.environ["OMP_NUM_THREADS"]) or answer(q), fake.localize
+    fake.localize, answer = lambda q: records.append(os.environ["OMP_NUM_THREADS"]) or answer(q), fake.localize
     opened(fake)
     assert run("localize", TEXT).exit_code == 0
-    assert int(seen[0]) >= 1
+    assert int(records[0]) >= 1
 
 
 def test_lines_of_standard_input_are_answered_a_line_each_and_a_bad_one_fails_alone(opened):

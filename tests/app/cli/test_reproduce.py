@@ -30,10 +30,10 @@ steps = 6
     assert (training.steps, training.device, training.batch_size) == (5, "cpu", 64)
     assert load_settings("points", scale.points)[1].steps == 6
     assert load_settings("regressor", scale.fine)[1].steps == load_settings("regressor", SCALE.fine)[1].steps
-    said = _override(SCALE, config, 40, None)
-    assert load_settings("mncl", said.retriever)[1].steps == 40, "an option wins"
-    assert load_settings("mncl", said.retriever)[1].validate_every == 2
-    assert load_settings("points", said.points)[1].steps == 6
+    overridden = _override(SCALE, config, 40, None)
+    assert load_settings("mncl", overridden.retriever)[1].steps == 40, "an option wins"
+    assert load_settings("mncl", overridden.retriever)[1].validate_every == 2
+    assert load_settings("points", overridden.points)[1].steps == 6
 
 
 @pytest.mark.parametrize(

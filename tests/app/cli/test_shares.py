@@ -19,27 +19,27 @@ def calls(monkeypatch):
     """What is asked for; nothing is done."""
     for name in THREAD_VARIABLES:
         monkeypatch.setenv(name, "1")
-    asked = []
+    made = []
 
     class Job:
         def __init__(self, map_path, out_dir, _weights_dir, _split, keep_current, levels, store, _region):
             self.given = map_path, out_dir, keep_current, levels, store
 
         def make_shard(self, shard, _show):
-            asked.append((*self.given, shard))
+            made.append((*self.given, shard))
             return Path("o/.parts/x/2-of-4")
 
         def merge(self, count, _show):
-            asked.append((*self.given, count))
+            made.append((*self.given, count))
             return Path("o/v1")
 
     def build_on_ray(job, count, address, _show):
-        asked.append((*job.given, count, address))
+        made.append((*job.given, count, address))
         return Path("o/v2")
 
     monkeypatch.setitem(sys.modules, "index.build.build", SimpleNamespace(IndexJob=Job))
     monkeypatch.setitem(sys.modules, "index.build.ray_shards", SimpleNamespace(build_on_ray=build_on_ray))
-    return asked
+    return made
 
 
 def run(*arguments):
@@ -69,7 +69,7 @@ def test_shards_are_merged_here_or_made_in_a_cluster(calls) -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "message"),
     [
         *((("--shard", text), "is not a shard; expected") for text in ("5/4", "0/4", "x", "", "4")),
         (("--merge", "0"), "Invalid value for '--merge'"),
@@ -80,8 +80,8 @@ def test_shards_are_merged_here_or_made_in_a_cluster(calls) -> None:
         (("--address", "head:6379"), "give --engine ray with it"),
     ],
 )
-def test_what_cannot_be_meant_is_a_usage_error(calls, arguments, said) -> None:
+def test_what_cannot_be_meant_is_a_usage_error(calls, arguments, message) -> None:
     result = run(*arguments)
     assert result.exit_code == 2
-    assert said in " ".join(result.stderr.split())
+    assert message in " ".join(result.stderr.split())
     assert not calls

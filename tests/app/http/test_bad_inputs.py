@@ -29,7 +29,7 @@ ADVICE = re.compile(
 )
 FLEETING = ("request_id", "timings_ms")
 NEGOTIATED = ("POST /localize", "GET /cells", "GET /cells/{cell_id}")
-SOME = {  # of what is the same for every operation with a body: all for the first, some for each of the others
+CASES = {  # of what is the same for every operation with a body: all for the first, some for each of the others
     operation: slice(n % 6, None, 6 if n else 1) for n, operation in enumerate(WITH_BODY)
 }
 NAMED = {  # the parameter in an operation's path, and what is said of one that nothing has
@@ -68,13 +68,13 @@ def body(content):
 
 
 def bad_bodies():
-    for operation, some in SOME.items():
+    for operation, share in CASES.items():
         base = values.BASES.get(operation, GOOD[operation]["json"])
-        for content in values.RAW[some]:
+        for content in values.RAW[share]:
             yield bad(operation, "raw", "invalid_json", **body(content))
-        for content in (*values.NO_OBJECT[some], *values.WHOLE.get(operation, ())):
+        for content in (*values.NO_OBJECT[share], *values.WHOLE.get(operation, ())):
             yield bad(operation, "body", **body(content))
-        for name in values.UNKNOWN[some]:
+        for name in values.UNKNOWN[share]:
             yield bad(operation, "unknown", **body(base | {name: values.MARK}))
         for field, wrong in values.FIELDS.get(operation, {}).items():
             for value in wrong:
@@ -83,9 +83,9 @@ def bad_bodies():
 
 
 def bad_headers():
-    for operation, some in SOME.items():
+    for operation, share in CASES.items():
         for header, wrong in (("Content-Type", values.CONTENT_TYPES), ("Content-Encoding", values.CODINGS)):
-            for value in wrong[some]:
+            for value in wrong[share]:
                 yield bad(operation, header, "unsupported_media_type", headers={header: value})
     for operation in NEGOTIATED:
         for value in values.ACCEPTS:
@@ -167,11 +167,11 @@ def answers_before(good_answer):
     return {operation: good_answer(operation) for operation in GOOD}
 
 
-def check_words(content, said):
+def check_words(content, refusal):
     """A problem is short, helps, and has nothing of the input or of the machinery."""
     assert len(content) <= 1024
-    assert ADVICE.search(said["detail"]), said["detail"]
-    text = content.decode().replace(said["request_id"], "")  # whose digits may be anything
+    assert ADVICE.search(refusal["detail"]), refusal["detail"]
+    text = content.decode().replace(refusal["request_id"], "")  # whose digits may be anything
     assert not ECHO.search(text), text
     assert not MACHINERY.search(text), text
 
@@ -188,10 +188,10 @@ def test_there_are_many_and_no_two_are_alike():
 def test_it_is_refused_and_leaves_nothing_behind(api, fake, problem, good_answer, answers_before, one):
     computed = len(fake.batches)
     response = api.request(one.method, one.path, **one.sent)
-    said = problem(response, response.status_code, one.code)
+    refusal = problem(response, response.status_code, one.code)
     assert 400 <= response.status_code < 500
     assert len(fake.batches) == computed
-    check_words(response.content, said)
+    check_words(response.content, refusal)
     assert good_answer(one.operation) == answers_before[one.operation]
 
 
@@ -203,7 +203,7 @@ def test_as_items_of_a_batch_they_fail_alone(api):
         response = api.post("/localize/batch", **body({"items": sent}))
         *errors, good = response.json()["items"]
         assert good["result"]["status"] == "ok"
-        for found in errors:
-            assert found["result"] is None
-            assert found["error"]["code"] == "invalid_request"
-            check_words(json.dumps(found["error"]).encode(), found["error"])
+        for item in errors:
+            assert item["result"] is None
+            assert item["error"]["code"] == "invalid_request"
+            check_words(json.dumps(item["error"]).encode(), item["error"])

@@ -25,14 +25,14 @@ def test_answers_come_in_order_and_a_bad_item_fails_alone(api, fake):
     ]
     response = api.post("/localize/batch", json={"items": items})
     assert response.status_code == 200
-    found = response.json()["items"]
-    said = [one["result"]["status"] if one["result"] else one["error"]["code"] for one in found]
-    assert said == [
+    batch_items = response.json()["items"]
+    outcomes = [one["result"]["status"] if one["result"] else one["error"]["code"] for one in batch_items]
+    assert outcomes == [
         "ok", "invalid_request", "no_match", "invalid_request", "index_not_found", "invalid_request",
         "invalid_request", "ok",
     ]  # fmt: skip
-    assert len(found[0]["result"]["candidates"]) == 1
-    assert [one["error"]["errors"][0]["field"] for one in found if one["error"] and one["error"]["errors"]] == [
+    assert len(batch_items[0]["result"]["candidates"]) == 1
+    assert [one["error"]["errors"][0]["field"] for one in batch_items if one["error"] and one["error"]["errors"]] == [
         "description", "top_k", "prior.position", "unknown",
     ]  # fmt: skip
     assert sorted(query.description for batch in fake.batches for query in batch) == sorted([TEXT, "nowhere", "a tree"])
@@ -89,6 +89,6 @@ def test_items_of_an_index_that_answers_do_not_wait_for_one_that_cannot(monkeypa
         until(lambda: api.post("/localize", json=there).status_code == 200)
         until(lambda: api.get("/readyz").json()["code"] == "load_failed")
         problem(api.post("/localize/batch", json={"items": [here]}), 503, "load_failed")
-        found = api.post("/localize/batch", json={"items": [here, there]}).json()["items"]
-    assert found[0]["error"]["code"] == "load_failed"
-    assert found[1]["result"]["status"] == "ok"
+        batch_items = api.post("/localize/batch", json={"items": [here, there]}).json()["items"]
+    assert batch_items[0]["error"]["code"] == "load_failed"
+    assert batch_items[1]["result"]["status"] == "ok"

@@ -19,7 +19,7 @@ def post(api, content, headers=JSON):
 
 
 @pytest.mark.parametrize(
-    ("content", "said"),
+    ("content", "phrase"),
     [
         (b'{"description": "\xff\xfe"}', "not UTF-8"),
         (b'{"a":' * 20_000 + b"1" + b"}" * 20_000, "more than 32 nested levels"),
@@ -29,8 +29,8 @@ def post(api, content, headers=JSON):
         (b'{"a":\n x}', "line 2 column 2"),
     ],
 )
-def test_detail_says_what_is_wrong(api, problem, content, said):
-    assert said in problem(post(api, content), 400, "invalid_json")["detail"]
+def test_detail_says_what_is_wrong(api, problem, content, phrase):
+    assert phrase in problem(post(api, content), 400, "invalid_json")["detail"]
 
 
 def test_nesting_up_to_the_limit_passes():

@@ -81,14 +81,14 @@ def test_cells_are_listed_a_page_at_a_time(api):
 
 
 def test_a_page_has_its_etag_and_its_geojson(api):
-    found = api.get("/cells?limit=1")
-    assert api.get("/cells?limit=1", headers={"If-None-Match": found.headers["etag"]}).status_code == 304
-    assert api.get("/cells?limit=2", headers={"If-None-Match": found.headers["etag"]}).status_code == 200
+    first_page = api.get("/cells?limit=1")
+    assert api.get("/cells?limit=1", headers={"If-None-Match": first_page.headers["etag"]}).status_code == 304
+    assert api.get("/cells?limit=2", headers={"If-None-Match": first_page.headers["etag"]}).status_code == 200
     drawn = api.get("/cells?limit=1", headers=GEO)
-    assert drawn.headers["etag"] != found.headers["etag"]
+    assert drawn.headers["etag"] != first_page.headers["etag"]
     [feature] = drawn.json()["features"]
     assert (feature["geometry"]["type"], feature["id"]) == ("Polygon", "fakeville_00001")
-    assert drawn.json()["next"] == found.json()["next"]
+    assert drawn.json()["next"] == first_page.json()["next"]
 
 
 @pytest.mark.parametrize("query", ["offset=-1", "offset=x", "limit=0", "limit=1001", "offset=1e9", "index=../x"])

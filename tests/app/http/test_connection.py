@@ -35,14 +35,14 @@ def read_until_closed(connection):
 
 def test_a_connection_is_kept_for_the_next_request_and_closed_when_none_comes(serve, monkeypatch):
     monkeypatch.setitem(CONNECTION_OPTIONS, "timeout_keep_alive", 0.5)
-    with serve() as port, connect(port) as kept:
+    with serve() as port, connect(port) as kept_alive:
         for _ in range(3):
-            kept.sendall(GET)
+            kept_alive.sendall(GET)
             received = b""
             while not received.endswith(b"}"):
-                received += kept.recv(65536)
+                received += kept_alive.recv(65536)
             assert received.startswith(b"HTTP/1.1 200 OK")
-        assert read_until_closed(kept) == b""
+        assert read_until_closed(kept_alive) == b""
 
 
 def test_a_body_may_take_longer_than_a_connection_is_kept(serve, monkeypatch):

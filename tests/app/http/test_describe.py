@@ -103,14 +103,14 @@ def test_bad_input_is_a_problem(api, problem, body, status, code, field):
 
 
 def test_a_place_off_the_map_is_told_what_to_do(api, problem):
-    told = problem(api.post(PATH, json={"position": [0, 1e8]}), 422, "invalid_request", "position")
-    assert "choose a position" in told["detail"]
+    refusal = problem(api.post(PATH, json={"position": [0, 1e8]}), 422, "invalid_request", "position")
+    assert "choose a position" in refusal["detail"]
 
 
 def test_degrees_need_a_georeference(settings, start, problem):
     with start(settings, FakeLocalizer(Frame())) as api:
-        asked = {"position": [24.94, 60.17], "crs": "wgs84"}
-        problem(api.post(PATH, json=asked), 422, "invalid_request", "crs")
+        request_body = {"position": [24.94, 60.17], "crs": "wgs84"}
+        problem(api.post(PATH, json=request_body), 422, "invalid_request", "crs")
         assert api.post(PATH, json={"position": [0, 0]}).json()["wgs84"] is None
 
 

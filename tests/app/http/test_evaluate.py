@@ -14,22 +14,22 @@ from app.settings import Settings
 from models.citymap.frame import Frame
 from models.errors import DataError
 
-ASKED = {"description": "I am north of a gray building. A pole is to my west.", "position": [1.0, 2.0]}
+QUERY = {"description": "I am north of a gray building. A pole is to my west.", "position": [1.0, 2.0]}
 
 
 @pytest.fixture
 def submitted(monkeypatch):
     """What reached the jobs, which run nothing."""
-    found = []
+    evaluations = []
 
     async def submit(self, evaluation):
         from app.jobs.job import EvaluationJob
 
-        found.append(evaluation)
+        evaluations.append(evaluation)
         return EvaluationJob(Path("/nowhere"))
 
     monkeypatch.setattr(runner.EvaluationJobs, "submit", submit)
-    return found
+    return evaluations
 
 
 @pytest.fixture
@@ -43,7 +43,7 @@ def data_dir(tmp_path):
 
 
 def test_queries_become_texts_and_metres(api, submitted):
-    body = {"queries": [ASKED, {"hints": [" a tree "], "position": [3, 4]}], "grow": [200, 300.5]}
+    body = {"queries": [QUERY, {"hints": [" a tree "], "position": [3, 4]}], "grow": [200, 300.5]}
     response = api.post("/evaluate", json=body)
     assert response.status_code == 202
     accepted = response.json()
@@ -58,7 +58,7 @@ def test_queries_become_texts_and_metres(api, submitted):
 
 
 def test_wgs84_is_projected(api, submitted):
-    body = {"queries": [ASKED | {"position": [24.941, 60.171]}, ASKED | {"position": [24.94, 60.17]}], "crs": "wgs84"}
+    body = {"queries": [QUERY | {"position": [24.941, 60.171]}, QUERY | {"position": [24.94, 60.17]}], "crs": "wgs84"}
     assert api.post("/evaluate", json=body).status_code == 202
     assert submitted[0].positions_m[0] == pytest.approx((55.5, 111.4), abs=0.2)
     assert submitted[0].positions_m[1] == pytest.approx((0, 0), abs=1e-6)
@@ -69,54 +69,54 @@ def test_wgs84_is_projected(api, submitted):
     [
         ({}, "queries"),
         ({"queries": []}, "queries"),
-        ({"queries": [ASKED], "data": "town"}, "queries"),
-        ({"queries": [ASKED], "split": "test"}, "split"),
+        ({"queries": [QUERY], "data": "town"}, "queries"),
+        ({"queries": [QUERY], "split": "test"}, "split"),
         ({"data": "town", "crs": "map"}, "crs"),
-        ({"queries": [ASKED, ASKED | {"position": [1]}]}, "queries[1].position[1]"),
-        ({"queries": [ASKED | {"position": [1, "2"]}]}, "queries[0].position[1]"),
-        ({"queries": [ASKED | {"position": [1, True]}]}, "queries[0].position[1]"),
-        ({"queries": [ASKED | {"position": [1, 1e9]}]}, "queries[0].position[1]"),
-        ({"queries": [ASKED | {"description": " . "}]}, "queries[0].description"),
-        ({"queries": [ASKED | {"description": "a\u0085tree"}]}, "queries[0].description"),
-        ({"queries": [ASKED | {"description": "A tree. " * 33}]}, "queries[0].description"),
-        ({"queries": [ASKED | {"description": "a" * 4001}]}, "queries[0].description"),
-        ({"queries": [ASKED | {"hints": ["a tree"]}]}, "queries[0].description"),
+        ({"queries": [QUERY, QUERY | {"position": [1]}]}, "queries[1].position[1]"),
+        ({"queries": [QUERY | {"position": [1, "2"]}]}, "queries[0].position[1]"),
+        ({"queries": [QUERY | {"position": [1, True]}]}, "queries[0].position[1]"),
+        ({"queries": [QUERY | {"position": [1, 1e9]}]}, "queries[0].position[1]"),
+        ({"queries": [QUERY | {"description": " . "}]}, "queries[0].description"),
+        ({"queries": [QUERY | {"description": "a\u0085tree"}]}, "queries[0].description"),
+        ({"queries": [QUERY | {"description": "A tree. " * 33}]}, "queries[0].description"),
+        ({"queries": [QUERY | {"description": "a" * 4001}]}, "queries[0].description"),
+        ({"queries": [QUERY | {"hints": ["a tree"]}]}, "queries[0].description"),
         ({"queries": [{"position": [1, 2]}]}, "queries[0].description"),
         ({"queries": [{"description": "a tree"}]}, "queries[0].position"),
         ({"queries": [{"hints": ["a"] * 33, "position": [1, 2]}]}, "queries[0].hints"),
-        ({"queries": [ASKED | {"pose": 1}]}, "queries[0].pose"),
-        ({"queries": [ASKED], "path": "/etc"}, "path"),
-        ({"queries": [ASKED] * 10_001}, "queries"),
-        ({"queries": [ASKED], "crs": "utm"}, "crs"),
-        ({"queries": [ASKED, ASKED | {"position": [181, 2]}], "crs": "wgs84"}, "queries[1].position"),
-        ({"queries": [ASKED, ASKED | {"position": [115, 0]}], "crs": "wgs84"}, "queries[1].position"),
-        ({"queries": [ASKED], "grow": [0]}, "grow[0]"),
-        ({"queries": [ASKED], "grow": []}, "grow"),
-        ({"queries": [ASKED], "grow": list(range(1, 10))}, "grow"),
+        ({"queries": [QUERY | {"pose": 1}]}, "queries[0].pose"),
+        ({"queries": [QUERY], "path": "/etc"}, "path"),
+        ({"queries": [QUERY] * 10_001}, "queries"),
+        ({"queries": [QUERY], "crs": "utm"}, "crs"),
+        ({"queries": [QUERY, QUERY | {"position": [181, 2]}], "crs": "wgs84"}, "queries[1].position"),
+        ({"queries": [QUERY, QUERY | {"position": [115, 0]}], "crs": "wgs84"}, "queries[1].position"),
+        ({"queries": [QUERY], "grow": [0]}, "grow[0]"),
+        ({"queries": [QUERY], "grow": []}, "grow"),
+        ({"queries": [QUERY], "grow": list(range(1, 10))}, "grow"),
         ({"data": "town", "split": "../x"}, "split"),
         ({"data": "town"}, "data"),
     ],
 )
 def test_what_cannot_be_used_is_named(refused, body, field):
-    fields, said = refused(
+    fields, message = refused(
         lambda body: build_evaluation(EvaluateRequest.model_validate(body), Settings(), Path("/nowhere"), TRUE_FRAME),
         body,
     )
     assert field in fields
-    assert "utm" not in said
+    assert "utm" not in message
 
 
 @pytest.mark.parametrize(
     ("body", "field"),
     [
         ({}, "queries"),
-        ({"queries": [ASKED, ASKED | {"position": [1]}]}, "queries[1].position[1]"),
-        ({"queries": [ASKED | {"hints": ["a tree"]}]}, "queries[0].description"),
-        ({"queries": [ASKED | {"description": "A tree. " * 33}]}, "queries[0].description"),
-        ({"queries": [ASKED | {"pose": 1}]}, "queries[0].pose"),
-        ({"queries": [ASKED] * 10_001}, "queries"),
-        ({"queries": [ASKED], "crs": "utm"}, "crs"),
-        ({"queries": [ASKED, ASKED | {"position": [115, 0]}], "crs": "wgs84"}, "queries[1].position"),
+        ({"queries": [QUERY, QUERY | {"position": [1]}]}, "queries[1].position[1]"),
+        ({"queries": [QUERY | {"hints": ["a tree"]}]}, "queries[0].description"),
+        ({"queries": [QUERY | {"description": "A tree. " * 33}]}, "queries[0].description"),
+        ({"queries": [QUERY | {"pose": 1}]}, "queries[0].pose"),
+        ({"queries": [QUERY] * 10_001}, "queries"),
+        ({"queries": [QUERY], "crs": "utm"}, "crs"),
+        ({"queries": [QUERY, QUERY | {"position": [115, 0]}], "crs": "wgs84"}, "queries[1].position"),
         ({"data": "town"}, "data"),
     ],
 )
@@ -130,7 +130,7 @@ def test_what_cannot_be_used_is_a_422_and_no_job(api, submitted, problem, body, 
 
 def test_wgs84_needs_a_georeference(settings, start, submitted, problem):
     with start(settings, FakeLocalizer(Frame())) as api:
-        body = {"queries": [ASKED], "crs": "wgs84"}
+        body = {"queries": [QUERY], "crs": "wgs84"}
         problem(api.post("/evaluate", json=body), 422, "invalid_request", "crs")
 
 
@@ -144,10 +144,10 @@ def test_its_own_limit_of_bytes(settings, fake, start, submitted, problem, monke
     monkeypatch.setattr(limits_module, "MAX_BODY_BYTES", 100)
     monkeypatch.setattr(limits_module, "MAX_EVALUATE_BODY_BYTES", 100_000)
     with start(settings, fake) as api:
-        body = {"queries": [ASKED] * 800}
+        body = {"queries": [QUERY] * 800}
         assert 65_536 < len(json.dumps(body)) < 100_000
         assert api.post("/evaluate", json=body).status_code == 202
-        problem(api.post("/evaluate", json={"queries": [ASKED] * 1200}), 413, "body_too_large")
+        problem(api.post("/evaluate", json={"queries": [QUERY] * 1200}), 413, "body_too_large")
         problem(api.post("/localize", json={"description": "a tree" * 30}), 413, "body_too_large")
         limits = api.get("/info").json()["limits"]
         assert (limits["max_evaluate_bytes"], limits["max_queries"], limits["max_jobs"]) == (100_000, 10_000, 8)
@@ -156,7 +156,7 @@ def test_its_own_limit_of_bytes(settings, fake, start, submitted, problem, monke
 def test_refused_until_ready_and_while_draining(settings, fake, start, submitted, problem):
     with start(settings, fake) as api:
         api.app.state.indexes.drain()
-        problem(api.post("/evaluate", json={"queries": [ASKED]}), 503, "draining")
+        problem(api.post("/evaluate", json={"queries": [QUERY]}), 503, "draining")
 
 
 @pytest.mark.parametrize(
@@ -174,9 +174,9 @@ def test_data_set_by_name(settings, fake, start, submitted, data_dir, name, file
 )
 def test_no_path_is_a_data_set(refused, data_dir, name):
     for given in (name, str(data_dir / name)):
-        fields, said = refused(lambda given: find_data(data_dir, given), given)
+        fields, message = refused(lambda given: find_data(data_dir, given), given)
         assert fields == ["data"]
-        assert str(data_dir) not in said
+        assert str(data_dir) not in message
 
 
 def test_a_path_is_a_422(settings, fake, start, submitted, data_dir, problem):
@@ -195,7 +195,7 @@ def test_folder_and_file_of_one_name(data_dir):
 
 
 @pytest.mark.parametrize(
-    ("content", "said"),
+    ("content", "message"),
     [
         ("{", "not JSON"),
         ('{"queries": NaN}', "NaN"),
@@ -204,9 +204,9 @@ def test_folder_and_file_of_one_name(data_dir):
         ('{"data": "town"}', "pass its path as --data"),
     ],
 )
-def test_file_that_is_no_such_body(settings, tmp_path, content, said):
+def test_file_that_is_no_such_body(settings, tmp_path, content, message):
     (tmp_path / "q.json").write_text(content)
-    with pytest.raises(DataError, match=said):
+    with pytest.raises(DataError, match=message):
         read_evaluation(tmp_path / "q.json", settings, None, [])
 
 

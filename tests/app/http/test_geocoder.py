@@ -25,16 +25,16 @@ def geocoder(served):
 
 
 def test_geopy_finds_a_description(geocoder):
-    found = geocoder.geocode(TEXT)
-    assert (found.latitude, found.longitude) == pytest.approx(HERE, abs=1e-4)
-    assert found.address == "on Main Street"
-    assert found.raw["importance"] == 0.6
-    assert found.raw["class"] == "place"
+    result = geocoder.geocode(TEXT)
+    assert (result.latitude, result.longitude) == pytest.approx(HERE, abs=1e-4)
+    assert result.address == "on Main Street"
+    assert result.raw["importance"] == 0.6
+    assert result.raw["class"] == "place"
 
 
 def test_geopy_lists_and_biases(geocoder):
-    found = geocoder.geocode(TEXT, exactly_one=False, limit=3, viewbox=[(60.1, 24.9), (60.2, 25.0)], language="en")
-    assert len(found) == 1, "candidates that overlap are one place"
+    result = geocoder.geocode(TEXT, exactly_one=False, limit=3, viewbox=[(60.1, 24.9), (60.2, 25.0)], language="en")
+    assert len(result) == 1, "candidates that overlap are one place"
     assert geocoder.geocode(TEXT, viewbox=[(60.1, 24.9), (60.2, 25.0)], bounded=True).latitude
 
 
@@ -44,10 +44,10 @@ def test_geopy_finds_nothing(geocoder):
 
 
 def test_geopy_reverses(geocoder):
-    found = geocoder.reverse(HERE)
-    assert found.address == "on Main Street"
-    assert (found.latitude, found.longitude) == pytest.approx(HERE, abs=1e-3)
-    assert found.raw["extratags"]["description"].startswith("A green tree")
+    result = geocoder.reverse(HERE)
+    assert result.address == "on Main Street"
+    assert (result.latitude, result.longitude) == pytest.approx(HERE, abs=1e-3)
+    assert result.raw["extratags"]["description"].startswith("A green tree")
 
 
 @pytest.mark.parametrize("form", ["json", "jsonv2", "geojson"])
@@ -57,14 +57,14 @@ def test_formats_have_nominatims_fields(api, form):
     assert listed.status_code == one.status_code == 200
     if form == "geojson":
         assert listed.headers["content-type"] == "application/geo+json"
-        for found in (listed.json(), one.json()):
-            [feature] = found["features"]
+        for result in (listed.json(), one.json()):
+            [feature] = result["features"]
             west, south, east, north = feature["bbox"]
             lon, lat = feature["geometry"]["coordinates"]
             assert west < lon < east
             assert south < lat < north
             assert feature["properties"]["display_name"] == "on Main Street"
-            assert found["licence"] == "© nobody"
+            assert result["licence"] == "© nobody"
         return
     for place in (listed.json()[0], one.json()):
         south, north, west, east = map(float, place["boundingbox"])

@@ -29,20 +29,20 @@ def test_alive_at_once_and_ready_when_loaded(settings, fake, until, problem):
 
 
 @pytest.mark.parametrize(
-    ("error", "said"),
+    ("error", "message"),
     [
         (IndexMismatch("/secret/index built by a, model is b; rebuild it"), "the reason is in the service's log"),
         (KeyError("secret"), "it is in the service's log"),
     ],
 )
-def test_load_that_failed_is_said_by_readyz(settings, until, problem, error, said):
+def test_load_that_failed_is_said_by_readyz(settings, until, problem, error, message):
     def fail():
         raise error
 
     with TestClient(create_app(settings, fail)) as api:
         until(lambda: api.get("/readyz").json()["code"] != "not_ready")
         body = problem(api.get("/readyz"), 503, "load_failed")
-        assert said in body["detail"]
+        assert message in body["detail"]
         assert "secret" not in api.get("/readyz").text + api.post("/localize", json={"description": "a tree"}).text
         problem(api.post("/localize", json={"description": "a tree"}), 503, "load_failed")
         assert api.get("/healthz").status_code == 200

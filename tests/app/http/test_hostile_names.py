@@ -50,33 +50,33 @@ def test_answers_in_all_forms_have_the_name_to_the_letter(here, kind, name):
     drawn = plain(here.post("/localize", json={"description": text}, headers={"Accept": "application/geo+json"}))
     assert answer["estimate"]["place"] in [feature["properties"].get("place") for feature in drawn["features"]]
     for form in ("json", "jsonv2", "geojson"):
-        found = plain(here.get("/search", params={"q": text, "format": form}))
-        first = found["features"][0]["properties"] if form == "geojson" else found[0]
+        result = plain(here.get("/search", params={"q": text, "format": form}))
+        first = result["features"][0]["properties"] if form == "geojson" else result[0]
         assert first["display_name"] == answer["estimate"]["place"]
 
 
 @pytest.mark.parametrize("place", [place for place in PLACES if place[2] in KINDS.values()], ids=lambda place: place[2])
 def test_what_is_said_of_a_place_has_its_name_to_the_letter(here, place):
     x, y, name, _ = place
-    at = (x - 150, y - 150)
-    said = plain(here.post("/describe", json={"position": at}))
-    assert name in said["description"]
-    assert name in [fact["name"] for fact in said["hints"]]
-    where = {"lat": said["wgs84"]["lat"], "lon": said["wgs84"]["lon"]}
-    found = plain(here.get("/reverse", params=where))
-    assert name in found["display_name"]
-    assert name in found["extratags"]["description"]
+    position = (x - 150, y - 150)
+    described = plain(here.post("/describe", json={"position": position}))
+    assert name in described["description"]
+    assert name in [fact["name"] for fact in described["hints"]]
+    where = {"lat": described["wgs84"]["lat"], "lon": described["wgs84"]["lon"]}
+    result = plain(here.get("/reverse", params=where))
+    assert name in result["display_name"]
+    assert name in result["extratags"]["description"]
 
 
 def test_questions_offer_the_names_to_the_letter_and_take_them(here):
-    told = {"description": "There is a tree to my north. There is a bench to my east."}
-    question = plain(here.post("/localize", json=told))["question"]
+    body = {"description": "There is a tree to my north. There is a bench to my east."}
+    question = plain(here.post("/localize", json=body))["question"]
     hostile = [choice for choice in question["choices"] if choice["text"] in STREETS]
     assert hostile, "else this tests nothing"
     reply = {"question": question["id"], "choice": hostile[0]["value"]}
-    assert hostile[0]["text"] in plain(here.post("/localize", json=told | {"answers": [reply]}))["estimate"]["place"]
+    assert hostile[0]["text"] in plain(here.post("/localize", json=body | {"answers": [reply]}))["estimate"]["place"]
     house = {"question": "address", "choice": f"{NUMBER} {STREETS[1]}"}
-    assert plain(here.post("/localize", json=told | {"answers": [house]}))["status"] in ("ok", "ambiguous")
+    assert plain(here.post("/localize", json=body | {"answers": [house]}))["status"] in ("ok", "ambiguous")
 
 
 def test_a_map_with_such_a_name_is_reached_by_it(here):
@@ -109,16 +109,16 @@ def test_a_refusal_says_nothing_of_what_was_sent(here, attack):
 def test_agents_read_the_names_to_the_letter(url):
     async def run():
         async with AsyncClient(url) as client, Agent(build_server(client)) as agent:
-            found, said = [], []
+            result, described = [], []
             for kind in KINDS:
                 arguments = {"description": f"I am on the street, right outside a {kind}."}
-                found.append((await agent.call_tool("localize", arguments)).structured_content)
-                where = {"lat": found[-1]["best"]["lat"], "lon": found[-1]["best"]["lon"]}
-                said.append((await agent.call_tool("describe_place", where)).structured_content)
-            return found, said
+                result.append((await agent.call_tool("localize", arguments)).structured_content)
+                where = {"lat": result[-1]["best"]["lat"], "lon": result[-1]["best"]["lon"]}
+                described.append((await agent.call_tool("describe_place", where)).structured_content)
+            return result, described
 
-    for name, found, said in zip(KINDS.values(), *asyncio.run(run()), strict=True):
-        assert name in found["best"]["place"]
-        assert name in found["summary"]
-        assert found["understood"][0].split(": ", 1)[1].startswith(name)
-        assert name in said["description"]
+    for name, result, described in zip(KINDS.values(), *asyncio.run(run()), strict=True):
+        assert name in result["best"]["place"]
+        assert name in result["summary"]
+        assert result["understood"][0].split(": ", 1)[1].startswith(name)
+        assert name in described["description"]

@@ -46,7 +46,7 @@ async def serving(city, check_files=None):
         await indexes.close()
 
 
-async def asked(indexes, alias="default"):
+async def answering_version(indexes, alias="default"):
     """The version that answers."""
     async with indexes.lease(alias) as queue:
         await queue.submit(Query("a tree"), time.monotonic() + 5)
@@ -71,7 +71,7 @@ def test_each_alias_is_served_by_its_own_version():
             with pytest.raises(Problem) as refused:
                 indexes.queue("paris")
             assert refused.value.code is Code.INDEX_NOT_FOUND
-            return await asked(indexes), await asked(indexes, "berlin")
+            return await answering_version(indexes), await answering_version(indexes, "berlin")
 
     assert asyncio.run(run()) == ("v1", "b1")
 
@@ -84,7 +84,7 @@ def test_an_alias_that_changes_on_disk_is_followed_and_the_old_version_let_go():
             first = city.opened["v1"]
             city.aliases = {"default": "v2", "new": "v1"}
             await soon(lambda: indexes.queue().localizer.facts.version == "v2" and "new" in indexes.names())
-            assert await asked(indexes) == "v2"
+            assert await answering_version(indexes) == "v2"
             await soon(lambda: first.is_closed)
             assert not city.opened["v1"].is_closed
 
@@ -97,16 +97,16 @@ def test_a_request_keeps_its_version_while_the_alias_moves_on():
     async def run():
         async with serving(city) as indexes:
             city.opened["v1"].gate.clear()
-            waiting = asyncio.create_task(asked(indexes))
-            async with indexes.lease() as held:
+            waiting = asyncio.create_task(answering_version(indexes))
+            async with indexes.lease() as leased:
                 await asyncio.sleep(0.02)
                 city.aliases = {"default": "v2"}
-                await soon(lambda: indexes.queue() is not held)
-                assert await asked(indexes) == "v2"
+                await soon(lambda: indexes.queue() is not leased)
+                assert await answering_version(indexes) == "v2"
                 city.opened["v1"].gate.set()
                 assert await waiting == "v1"
-                assert held.localizer.facts.version == "v1"
-                await held.submit(Query("another"), time.monotonic() + 5)
+                assert leased.localizer.facts.version == "v1"
+                await leased.submit(Query("another"), time.monotonic() + 5)
                 assert not city.opened["v1"].is_closed
             await soon(lambda: city.opened["v1"].is_closed)
 
@@ -120,14 +120,14 @@ def test_an_alias_that_is_removed_answers_its_requests_and_no_more():
         async with serving(city) as indexes:
             canary = city.opened["c1"]
             canary.gate.clear()
-            waiting = asyncio.create_task(asked(indexes, "canary"))
+            waiting = asyncio.create_task(answering_version(indexes, "canary"))
             await asyncio.to_thread(canary.entered.acquire, timeout=60)
             city.aliases = {}
             await soon(lambda: indexes.names() == ["default"])
             with pytest.raises(Problem) as refused:
-                await asked(indexes, "canary")
+                await answering_version(indexes, "canary")
             assert refused.value.code is Code.INDEX_NOT_FOUND
-            assert await asked(indexes) == "v1"  # requests that name no index need it
+            assert await answering_version(indexes) == "v1"  # requests that name no index need it
             canary.gate.set()
             assert await waiting == "c1"
             await soon(lambda: canary.is_closed)
@@ -145,9 +145,9 @@ def test_a_version_that_cannot_be_opened_leaves_the_old_one_serving():
             with capture_logs() as lines:
                 await soon(lambda: "index not switched" in [line["event"] for line in lines])
                 await asyncio.sleep(0.1)
-            [said] = [line for line in lines if line["event"] == "index not switched"]
-            assert (said["alias"], said["index_version"], said["reason"]) == ("default", "v2", "v2 is broken")
-            assert await asked(indexes) == "v1"
+            [entry] = [line for line in lines if line["event"] == "index not switched"]
+            assert (entry["alias"], entry["index_version"], entry["reason"]) == ("default", "v2", "v2 is broken")
+            assert await answering_version(indexes) == "v1"
             city.aliases = {"default": "v3"}
             await soon(lambda: indexes.queue().localizer.facts.version == "v3")
 
@@ -167,7 +167,7 @@ def test_an_index_that_is_built_after_the_service_started_is_found(there):
             city.aliases = {"default": "v1"}
             await soon(lambda: "v1" in city.opened)
             await soon(lambda: indexes.queue()._localizers)
-            return await asked(indexes)
+            return await answering_version(indexes)
 
     assert asyncio.run(run()) == "v1"
 
@@ -185,7 +185,7 @@ def test_aliases_that_cannot_be_read_change_nothing_until_they_can(error):
         async with serving(city) as indexes:
             indexes._read_aliases = unreadable
             await soon(lambda: len(failed) > 2)
-            assert await asked(indexes) == "v1"
+            assert await answering_version(indexes) == "v1"
             city.aliases = {"default": "v2"}
             indexes._read_aliases = lambda: city.aliases
             await soon(lambda: indexes.queue().localizer.facts.version == "v2")
@@ -220,7 +220,7 @@ def test_every_version_that_is_opened_is_read_and_a_broken_one_answers_no_more()
             await soon(lambda: len(read) == 3)
             assert sorted(read) == ["b1", "p1", "v1"]
             assert indexes.versions() == {"default": "v1", "paris": "p1"}
-            assert await asked(indexes) == "v1"
+            assert await answering_version(indexes) == "v1"
             city.aliases["default"] = "v2"
             await soon(lambda: refusal(indexes))
             assert refusal(indexes) == "v2 is broken"
@@ -228,7 +228,7 @@ def test_every_version_that_is_opened_is_read_and_a_broken_one_answers_no_more()
             assert read.count("v2") == 1, "and not again and again"
             city.aliases["default"] = "v3"
             await soon(lambda: not refusal(indexes))
-            assert await asked(indexes) == "v3"
+            assert await answering_version(indexes) == "v3"
             await soon(lambda: city.opened["v2"].is_closed)
 
     asyncio.run(run())
@@ -245,7 +245,7 @@ def test_what_waits_for_a_version_that_is_found_broken_is_refused():
         async with serving(city, check) as indexes:
             fake = city.opened["v1"]
             fake.gate.clear()
-            computed, waiting = (asyncio.create_task(asked(indexes)) for _ in range(2))
+            computed, waiting = (asyncio.create_task(answering_version(indexes)) for _ in range(2))
             await asyncio.to_thread(fake.entered.acquire, timeout=60)
             is_found.set()
             with pytest.raises(Problem) as refused:
@@ -282,7 +282,7 @@ def test_a_check_ends_with_the_version_or_the_service_that_it_is_of():
             city.aliases = {"default": "v2"}
             await soon(lambda: begun == ["v1", "v2"])
             assert ended == ["v1"]
-            assert await asked(indexes) == "v2"
+            assert await answering_version(indexes) == "v2"
         assert ended == ["v1", "v2"]
 
     asyncio.run(run())
@@ -308,7 +308,7 @@ def test_draining_refuses_on_every_index():
             indexes.drain()
             for alias in indexes.names():
                 with pytest.raises(Problem) as refused:
-                    await asked(indexes, alias)
+                    await answering_version(indexes, alias)
                 assert refused.value.code is Code.DRAINING
             return indexes.is_idle
 

@@ -48,16 +48,16 @@ def refused(response, problem, code):
 
 
 def test_every_route_is_closed_but_these(closed, problem):
-    asked = set()
+    requested = set()
     for route in iter_route_contexts(closed.app.routes):
         for method in getattr(route, "methods", None) or {"GET"}:
             response = closed.request(method, route.path)
-            asked.add(route.path)
+            requested.add(route.path)
             if route.path in OPEN_PATHS:
                 assert response.status_code == 200, route.path
             else:
                 refused(response, problem, "key_required")
-    assert asked > OPEN_PATHS | {"/localize", "/evaluate", "/evaluate/{job}/events", "/cells/{cell_id}"}
+    assert requested > OPEN_PATHS | {"/localize", "/evaluate", "/evaluate/{job}/events", "/cells/{cell_id}"}
 
 
 def test_what_is_open_is_so_for_get_and_head_alone(closed, problem):
@@ -213,8 +213,8 @@ def statuses_of_changes(api, headers):
 @pytest.mark.usefixtures("evaluates_nothing")
 def test_without_a_key_a_forwarded_request_changes_nothing(api, fake, problem, headers):
     for method, path, body in CHANGES:
-        said = problem(api.request(method, path, json=body, headers=headers), 403, "key_not_set")
-        assert "HEREABOUTS_READ_KEY" in said["detail"]
+        refusal = problem(api.request(method, path, json=body, headers=headers), 403, "key_not_set")
+        assert "HEREABOUTS_READ_KEY" in refusal["detail"]
     assert api.post("/localize", json={"description": "a tree"}, headers=headers).status_code == 200
     assert api.get("/evaluate/x", headers=headers).status_code == 404
 

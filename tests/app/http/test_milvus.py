@@ -57,9 +57,9 @@ def test_no_vectors_are_in_the_directory(root):
     assert manifest.collection == "hereabouts_" + manifest.version.replace("-", "_")
     assert "vectors.faiss" not in manifest.files
     assert not (directory / "vectors.faiss").exists()
-    found = MilvusStore("hereabouts_default", manifest.dim, manifest.cells)
-    found.check()  # Milvus's alias
-    found.close()
+    by_alias = MilvusStore("hereabouts_default", manifest.dim, manifest.cells)
+    by_alias.check()  # Milvus's alias
+    by_alias.close()
 
 
 def test_it_answers_as_an_index_in_a_file(served, index_dir, weights_dir, until):
@@ -134,7 +134,7 @@ def test_killed_under_load_and_started_again_it_answers_without_a_restart(milvus
     answered, ends = [], threading.Event()
 
     def down():
-        return [status for at, status, _ in answered if killed_s + 1 < at]
+        return [status for answered_s, status, _ in answered if killed_s + 1 < answered_s]
 
     def ask(number):
         while not ends.wait(PAUSE_S):

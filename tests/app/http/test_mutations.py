@@ -51,18 +51,18 @@ def mutated(draw):
 
 def changed(raw, draw):
     for _ in range(draw.randint(1, 4)):
-        at, end = sorted(draw.randrange(len(raw) + 1) for _ in range(2))
+        start, end = sorted(draw.randrange(len(raw) + 1) for _ in range(2))
         kind = draw.randrange(5)
         if kind == 0:
-            raw = raw[:at] + bytes([draw.randrange(256)]) + raw[at + 1 :]
+            raw = raw[:start] + bytes([draw.randrange(256)]) + raw[start + 1 :]
         elif kind == 1:
-            raw = raw[:at] + raw[min(end, at + 20) :]
+            raw = raw[:start] + raw[min(end, start + 20) :]
         elif kind == 2:
-            raw = raw[:at] + draw.choice(PIECES) + raw[at:]
+            raw = raw[:start] + draw.choice(PIECES) + raw[start:]
         elif kind == 3:
-            raw = raw[:end] + raw[at:end] + raw[end:]
+            raw = raw[:end] + raw[start:end] + raw[end:]
         else:
-            raw = raw[:at]
+            raw = raw[:start]
         raw = raw or b"\r\n"
     return raw
 
@@ -70,12 +70,12 @@ def changed(raw, draw):
 def answers_to(port, raw, wait_s=WAIT_S):
     """Status codes of all answers to what is sent, until the connection ends or nothing more comes."""
     with socket.create_connection(("127.0.0.1", port), timeout=wait_s) as connection:
-        said = b""
+        received = b""
         with suppress(ConnectionError, TimeoutError):
             connection.sendall(raw)
             while more := connection.recv(65536):
-                said += more
-    return [int(part[:3]) for part in said.split(b"HTTP/1.1 ")[1:]]
+                received += more
+    return [int(part[:3]) for part in received.split(b"HTTP/1.1 ")[1:]]
 
 
 @pytest.mark.slow

@@ -71,9 +71,9 @@ def test_a_version_that_cannot_be_served_is_logged_and_the_old_one_answers(root,
         with capture_logs() as lines:
             set_alias(root, "default", "copied")
             until(lambda: "index not switched" in [line["event"] for line in lines])
-        [said] = [line for line in lines if line["event"] == "index not switched"]
-        assert said["index_version"] == "copied"
-        assert "cells.json" in said["reason"]
+        [entry] = [line for line in lines if line["event"] == "index not switched"]
+        assert entry["index_version"] == "copied"
+        assert "cells.json" in entry["reason"]
         assert api.post("/localize", json={"description": TEXT}).json()["provenance"]["index_version"] == default
 
 
@@ -82,8 +82,8 @@ def test_an_index_of_another_model_is_logged_with_a_way_out(root, until, problem
     settings = Settings(index_dir=root, workers=1)  # the weights that ship
     with capture_logs() as lines, local_client(create_app(settings)) as api:
         until(lambda: api.get("/readyz").json()["code"] == "load_failed")
-    [said] = [line["reason"] for line in lines if line["event"] == "load failed"]
-    assert "rebuild the index with this model" in said
+    [entry] = [line["reason"] for line in lines if line["event"] == "load failed"]
+    assert "rebuild the index with this model" in entry
 
 
 @pytest.mark.parametrize(

@@ -125,10 +125,10 @@ def test_a_changed_file_has_another_tag(page, page_dir, fake):
     ],
 )
 def test_nothing_else_is_sent(page, problem, path):
-    asked = page.build_request(
+    built = page.build_request(
         "GET", f"/{quote(path[1:], safe='')}"
     )  # whole, as a client that tidies up no path sends it
-    problem(page.send(asked), 404, "not_found")
+    problem(page.send(built), 404, "not_found")
 
 
 def test_other_methods_are_405(page, problem):

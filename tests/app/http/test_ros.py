@@ -42,7 +42,7 @@ def test_covariance_is_of_the_plane_and_wide_in_what_nobody_told():
 def test_it_is_given_to_who_asks(settings, start):
     with start(settings, FakeLocalizer()) as api:
         assert api.post("/localize", json={"description": "a tree"}).json()["ros"] is None
-        found = api.post("/localize", json={"description": "a tree", "ros": True}).json()
-        assert found["ros"]["pose"]["covariance"][0] == 100.0
-        assert found["ros"]["header"]["frame_id"] == found["crs"]["frame_id"]
+        answer = api.post("/localize", json={"description": "a tree", "ros": True}).json()
+        assert answer["ros"]["pose"]["covariance"][0] == 100.0
+        assert answer["ros"]["header"]["frame_id"] == answer["crs"]["frame_id"]
         assert api.post("/localize", json={"description": "nowhere", "ros": True}).json()["ros"] is None

@@ -24,10 +24,10 @@ from models.errors import StoreUnavailable
 
 READ = "read-key-1"
 GEO, PICTURE = {"Accept": "application/geo+json"}, {"Accept": "image/png"}
-ASKED = ("POST /localize", "POST /localize/batch", "POST /describe", "POST /evaluate", "GET /search", "GET /reverse")
+QUEUED = ("POST /localize", "POST /localize/batch", "POST /describe", "POST /evaluate", "GET /search", "GET /reverse")
 DRAWN = ("GET /cells", "GET /cells/{cell_id}")
 OF_MAP = (*DRAWN, "GET /maps/{name}/points")
-OF_ONE_INDEX = (*(operation for operation in ASKED if operation != "POST /localize/batch"), *OF_MAP)
+OF_ONE_INDEX = (*(operation for operation in QUEUED if operation != "POST /localize/batch"), *OF_MAP)
 OF_JOB = ("GET /evaluate/{job}", "DELETE /evaluate/{job}", "GET /evaluate/{job}/events")
 OPEN = ("GET /healthz", "GET /readyz", "GET /metrics", "GET /info")
 CLOSED = tuple(operation for operation in GOOD if operation not in OPEN)
@@ -208,12 +208,12 @@ def fault_of_the_store(services, operation, patch):
     return ask(services(), operation)
 
 
-@provokes(503, "not_ready", *ASKED, *OF_MAP, "GET /readyz")
+@provokes(503, "not_ready", *QUEUED, *OF_MAP, "GET /readyz")
 def index_that_is_being_opened(services, operation, patch):
     return ask(services.loading(), operation)
 
 
-@provokes(503, "load_failed", *ASKED, *OF_MAP, "GET /readyz")
+@provokes(503, "load_failed", *QUEUED, *OF_MAP, "GET /readyz")
 def index_that_cannot_be_opened(services, operation, patch):
     return ask(services.failed(), operation)
 
@@ -226,7 +226,7 @@ def vectors_that_cannot_be_asked(services, operation, patch):
     return response
 
 
-@provokes(503, "draining", *ASKED, "GET /readyz")
+@provokes(503, "draining", *QUEUED, "GET /readyz")
 def service_that_ends(services, operation, patch):
     return ask(services.draining(), operation)
 
@@ -256,7 +256,7 @@ def test_it_is_answered(services, monkeypatch, problem, operation, status, code)
 
 def promised(**settings):
     """(operation, status, code or None) of all that a document lists."""
-    found = set()
+    documented = set()
     for path, operations in create_app(Settings(**settings)).openapi()["paths"].items():
         for method, operation in operations.items():
             for status, response in operation["responses"].items():
@@ -265,8 +265,8 @@ def promised(**settings):
                 else:
                     codes = response["content"]["application/problem+json"]["examples"]
                     assert codes, (method, path, status)
-                found |= {(f"{method.upper()} {path}", int(status), code) for code in codes}
-    return found
+                documented |= {(f"{method.upper()} {path}", int(status), code) for code in codes}
+    return documented
 
 
 def test_the_document_promises_what_is_provoked_and_nothing_else():

@@ -52,7 +52,7 @@ class Clients:
         self.client, self.root = client, root
         self.version = version  # that has to answer; None while that changes
         self.switches = 0
-        self.seen, self.errors = [], []
+        self.versions_seen, self.errors = [], []
         self.ends = threading.Event()
 
     def ask(self):
@@ -64,12 +64,12 @@ class Clients:
             except httpx.HTTPError as error:
                 self.errors.append(error)
                 return
-            said, told = answer["provenance"]["index_version"], answer["warnings"]
-            self.seen.append(said)
-            if told != [said]:
-                self.errors.append(f"{said} is said, {told} answered")
-            if version not in (said, None) and switches == self.switches:
-                self.errors.append(f"{said} answered after GET /indexes named {version}")
+            index_version, answer_warnings = answer["provenance"]["index_version"], answer["warnings"]
+            self.versions_seen.append(index_version)
+            if answer_warnings != [index_version]:
+                self.errors.append(f"{index_version} is said, {answer_warnings} answered")
+            if version not in (index_version, None) and switches == self.switches:
+                self.errors.append(f"{index_version} answered after GET /indexes named {version}")
 
     def switch(self, version, until):
         self.version = None
@@ -106,7 +106,7 @@ def test_200_switches_under_64_clients_lose_nothing_and_no_answer_mixes_versions
             for thread in threads:
                 thread.join()
         assert clients.errors == []
-        assert set(clients.seen) == set(VERSIONS)
+        assert set(clients.versions_seen) == set(VERSIONS)
         until(lambda: sum(not fake.is_closed for fake in opened) == 1)
     assert all(fake.is_closed for fake in opened)
     assert len(opened) == SWITCHES + 1

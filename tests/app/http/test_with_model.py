@@ -63,12 +63,12 @@ def test_any_place_that_passes_the_checks_is_answered(served, text, where):
 
 
 def test_a_place_that_is_described_is_found_again(served):
-    said = served.post("/describe", json={"position": [64.0, -57.0]})
-    assert said.status_code == 200, said.text
-    body = said.json()
+    described = served.post("/describe", json={"position": [64.0, -57.0]})
+    assert described.status_code == 200, described.text
+    body = described.json()
     assert served.get(f"/cells/{body['cell_id']}").status_code == 200
-    found = served.post("/localize", json={"description": body["description"]}).json()["estimate"]
-    assert found["position"] == pytest.approx([64.0, -57.0], abs=10)
+    estimate = served.post("/localize", json={"description": body["description"]}).json()["estimate"]
+    assert estimate["position"] == pytest.approx([64.0, -57.0], abs=10)
     degrees = {"position": [body["wgs84"]["lon"], body["wgs84"]["lat"]], "crs": "wgs84"}
     assert served.post("/describe", json=degrees).json()["description"] == body["description"]
 
@@ -84,30 +84,30 @@ def test_filter_off_the_map_is_no_match(served, text):
 
 
 def test_a_question_is_answered_and_another_is_asked(served):
-    told = {"description": "I am north of a tree.", "top_k": 40}
-    body = served.post("/localize", json=told).json()
+    request = {"description": "I am north of a tree.", "top_k": 40}
+    body = served.post("/localize", json=request).json()
     assert body["status"] == "ambiguous"
     question = body["question"]
     answers = [{"question": question["id"], "choice": question["choices"][0]["value"]}]
-    after = served.post("/localize", json={**told, "answers": answers}).json()
+    after = served.post("/localize", json={**request, "answers": answers}).json()
     assert after["candidates"] != body["candidates"]
     assert after["question"] is None or after["question"]["id"] != question["id"]
-    geojson = served.post("/localize", json={**told, "answers": answers}, headers={"Accept": "application/geo+json"})
+    geojson = served.post("/localize", json={**request, "answers": answers}, headers={"Accept": "application/geo+json"})
     assert geojson.status_code == 200
-    unsure = served.post("/localize", json={**told, "answers": [answers[0] | {"choice": "unknown"}]}).json()
+    unsure = served.post("/localize", json={**request, "answers": [answers[0] | {"choice": "unknown"}]}).json()
     assert unsure["candidates"] == body["candidates"]
     assert unsure["question"]["id"] != question["id"]
 
 
 def test_a_text_that_is_refused_can_be_rescued_by_a_reply(served):
-    told = {"description": "There is a building near me, and a road."}
-    body = served.post("/localize", json=told).json()
+    request = {"description": "There is a building near me, and a road."}
+    body = served.post("/localize", json=request).json()
     assert (body["status"], body["estimate"], body["question"]["id"]) == ("no_match", None, "street")
     reply = {"question": "street", "choice": "east street 3"}
-    after = served.post("/localize", json={**told, "answers": [reply]}).json()
+    after = served.post("/localize", json={**request, "answers": [reply]}).json()
     assert after["status"] in {"ok", "ambiguous"}
     assert "East Street 3" in after["estimate"]["place"]
-    unsure = served.post("/localize", json={**told, "answers": [reply | {"choice": "unknown"}]}).json()
+    unsure = served.post("/localize", json={**request, "answers": [reply | {"choice": "unknown"}]}).json()
     assert unsure["status"] == "no_match"
     assert unsure["question"]["id"] != "street"
 
@@ -140,8 +140,8 @@ def test_command_line_answers_the_same(served, text, index_dir, weights_dir, mon
         monkeypatch.setenv(name, "1")
     result = CliRunner().invoke(cli.app, ["localize", text, "--index", str(index_dir), "--json"])
     assert result.exit_code == 0, result.output
-    said = json.loads(result.stdout)["estimate"]
-    assert said["position"] == served.post("/localize", json={"description": text}).json()["estimate"]["position"]
+    described = json.loads(result.stdout)["estimate"]
+    assert described["position"] == served.post("/localize", json={"description": text}).json()["estimate"]["position"]
 
 
 @pytest.mark.usefixtures("warm_workers")

@@ -75,22 +75,22 @@ def directory(api, job):
 
 def test_done_with_its_report(api):
     job = begin(api, grow=[200])
-    found = wait_for(api, job, "done")
-    assert set(found) == {"job", "status", "progress", "created", "seconds", "report", "error"}
-    assert found["report"] == {"queries": 1, "grow": [200]}
-    assert found["progress"] == {"stage": "ask", "done": 2, "total": 2}
-    assert found["seconds"] > 0
-    assert found["error"] is None
+    finished = wait_for(api, job, "done")
+    assert set(finished) == {"job", "status", "progress", "created", "seconds", "report", "error"}
+    assert finished["report"] == {"queries": 1, "grow": [200]}
+    assert finished["progress"] == {"stage": "ask", "done": 2, "total": 2}
+    assert finished["seconds"] > 0
+    assert finished["error"] is None
 
 
 def test_events_tell_the_progress_and_one_end(api):
     job = begin(api, "slow")
-    told = events(api.get(f"/evaluate/{job}/events"))
-    assert [name for name, _ in told[:-1]] == ["progress"] * (len(told) - 1)
-    assert told[-1][0] == "done"
-    assert {"stage": "ask", "done": 0, "total": 2} in [data["progress"] for _, data in told]
-    assert told[-1][1] == state(api, job)
-    assert events(api.get(f"/evaluate/{job}/events")) == told[-1:], "who comes late is told the end"
+    reported = events(api.get(f"/evaluate/{job}/events"))
+    assert [name for name, _ in reported[:-1]] == ["progress"] * (len(reported) - 1)
+    assert reported[-1][0] == "done"
+    assert {"stage": "ask", "done": 0, "total": 2} in [data["progress"] for _, data in reported]
+    assert reported[-1][1] == state(api, job)
+    assert events(api.get(f"/evaluate/{job}/events")) == reported[-1:], "who comes late is told the end"
 
 
 def test_events_of_a_cancelled_job_end(api):
@@ -111,13 +111,13 @@ def test_silent_stream_has_signs_of_life(api, monkeypatch):
 def test_follower_that_is_slow_misses_no_end():
     async def follow():
         job = EvaluationJob(Path("/nowhere"))
-        seen = []
+        stages = []
         async for now in job.follow():
-            seen.append(now.status)
+            stages.append(now.status)
             if now.status == "queued":
                 job.begin()
                 job.finish("done", report={})
-        return seen
+        return stages
 
     assert asyncio.run(asyncio.wait_for(follow(), TIMEOUT_S)) == ["queued", "done"]
 
@@ -134,17 +134,17 @@ def test_follower_that_leaves_cancels_nothing():
 
 
 def test_input_that_is_wrong_is_said_without_directories(api):
-    found = wait_for(api, begin(api, "wrong"), "failed")
-    assert found["error"] == {"code": "evaluation_failed", "detail": "index/cells: are wrong, make them right"}
-    assert found["report"] is None
+    finished = wait_for(api, begin(api, "wrong"), "failed")
+    assert finished["error"] == {"code": "evaluation_failed", "detail": "index/cells: are wrong, make them right"}
+    assert finished["report"] is None
 
 
 @pytest.mark.slow
 def test_crash_is_told_in_the_log_alone(api):
     with structlog.testing.capture_logs() as logged:
-        found = wait_for(api, begin(api, "crash"), "failed")
-    assert found["error"]["code"] == "internal_error"
-    assert "secret" not in str(found)
+        finished = wait_for(api, begin(api, "crash"), "failed")
+    assert finished["error"]["code"] == "internal_error"
+    assert "secret" not in str(finished)
     assert any("secret of the crash" in entry.get("stderr", "") for entry in logged)
     assert wait_for(api, begin(api), "done"), "the next one runs"
 
@@ -155,10 +155,10 @@ def test_a_fault_is_told_in_the_log_and_what_was_said_where_it_is_wanted(api, mo
     monkeypatch.setenv("HEREABOUTS_LOG_DESCRIPTIONS", str(with_messages))
     with structlog.testing.capture_logs() as logged:
         wait_for(api, begin(api, "a quixotic fault"), "failed")
-    [told] = [entry["stderr"] for entry in logged if entry["event"] == "evaluation crashed"]
-    assert "fake_worker.py" in told
-    assert "KeyError" in told
-    assert ("quixotic" in told) == with_messages
+    [reported] = [entry["stderr"] for entry in logged if entry["event"] == "evaluation crashed"]
+    assert "fake_worker.py" in reported
+    assert "KeyError" in reported
+    assert ("quixotic" in reported) == with_messages
 
 
 @pytest.mark.parametrize("command", [("/nowhere/python",)])

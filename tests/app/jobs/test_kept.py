@@ -64,15 +64,15 @@ def test_reports_stay_what_waits_goes_on_and_what_ran_is_interrupted(service, un
         failed = begin(api, "wrong")
         until(lambda: status(api, failed) == "failed")
         before = [api.get(f"/evaluate/{job}").json() for job in (done, failed)]
-        held = begin(api, "held")
+        running = begin(api, "held")
         waiting = [begin(api, "a tree") for _ in range(2)]
-        until(lambda: status(api, held) == "running")
+        until(lambda: status(api, running) == "running")
     with service() as api:
         assert [api.get(f"/evaluate/{job}").json() for job in (done, failed)] == before
-        assert status(api, held) == "interrupted"
+        assert status(api, running) == "interrupted"
         for job in waiting:
             until(lambda job=job: status(api, job) == "done")
-        events = api.get(f"/evaluate/{held}/events").text
+        events = api.get(f"/evaluate/{running}/events").text
         assert "event: interrupted" in events
         assert api.delete(f"/evaluate/{done}").status_code == 200
     with service() as api:
@@ -83,12 +83,12 @@ def test_reports_stay_what_waits_goes_on_and_what_ran_is_interrupted(service, un
 
 def test_a_cancelled_job_stays_cancelled(service, until):
     with service() as api:
-        held, waiting = begin(api, "held"), begin(api, "a tree")
-        until(lambda: status(api, held) == "running")
-        for job in (waiting, held):
+        running, waiting = begin(api, "held"), begin(api, "a tree")
+        until(lambda: status(api, running) == "running")
+        for job in (waiting, running):
             api.delete(f"/evaluate/{job}")
     with service() as api:
-        assert [status(api, job) for job in (held, waiting)] == ["cancelled", "cancelled"]
+        assert [status(api, job) for job in (running, waiting)] == ["cancelled", "cancelled"]
 
 
 def test_what_a_kill_left_in_part_is_removed(service, until, tmp_path):
@@ -121,9 +121,9 @@ def test_what_cannot_be_read_or_is_no_job_is_left_alone(service, tmp_path):
     for path in (torn, unreadable / "state.json", other):
         path.mkdir(parents=True)
     (torn / "state.json").write_text("{")
-    with capture_logs() as said, service() as api:
+    with capture_logs() as logs, service() as api:
         assert api.get(f"/evaluate/{torn.name}").status_code == 404
-    assert sorted(line["job"] for line in said if line["event"] == "job not read") == [torn.name, unreadable.name]
+    assert sorted(line["job"] for line in logs if line["event"] == "job not read") == [torn.name, unreadable.name]
     assert all(path.is_dir() for path in (torn, unreadable, other))
 
 
@@ -147,8 +147,8 @@ def test_a_full_disk_stops_no_job_and_takes_no_other(service, until, monkeypatch
 
 
 def test_a_directory_of_another_service_is_not_shared(service, tmp_path):
-    with service() as first, capture_logs() as said, service() as second:
-        assert [line["event"] for line in said if line["log_level"] == "warning"] == ["jobs are not kept"]
+    with service() as first, capture_logs() as logs, service() as second:
+        assert [line["event"] for line in logs if line["log_level"] == "warning"] == ["jobs are not kept"]
         job = begin(first, "a tree")
         assert second.get(f"/evaluate/{job}").status_code == 404
         assert len(list((tmp_path / "jobs").iterdir())) == 1
@@ -200,5 +200,5 @@ def test_what_was_acknowledged_is_there_after_every_kill(tmp_path, until, warm):
             assert states().count("interrupted") <= 4
     finally:
         service.kill()
-    kept = [json.loads(path.read_text())["job"] for path in (tmp_path / "jobs").glob("*/state.json")]
-    assert set(kept) == acknowledged
+    stored = [json.loads(path.read_text())["job"] for path in (tmp_path / "jobs").glob("*/state.json")]
+    assert set(stored) == acknowledged

@@ -31,5 +31,5 @@ def test_all_three_come_through_one_door(osm_file, weights_dir, text_encoder, tm
     assert (measured.queried_cells == queries.truth).all()
     assert (trained.queries.positions_m == chosen_by.positions_m).all()
     assert trained.queries.sentences == chosen_by.sentences
-    said = trained.training.statements
-    assert not set(said.gallery.cells.ids) & set(cells.ids), "what is trained on is elsewhere"
+    training_statements = trained.training.statements
+    assert not set(training_statements.gallery.cells.ids) & set(cells.ids), "what is trained on is elsewhere"

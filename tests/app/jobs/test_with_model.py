@@ -52,21 +52,21 @@ def evaluate(served, body):
 
 @pytest.fixture(scope="module")
 def queries(osm_file):
-    asked = open_source(osm_file, "test").queries()
-    told = [
-        {"description": " ".join(asked.sentences[q]), "position": asked.positions_m[q].tolist()}
-        for q in range(0, len(asked), 20)
+    every_query = open_source(osm_file, "test").queries()
+    some_queries = [
+        {"description": " ".join(every_query.sentences[q]), "position": every_query.positions_m[q].tolist()}
+        for q in range(0, len(every_query), 20)
     ]
-    return [*told, {"hints": ["I am nowhere near."], "position": [5000.0, 5000.0]}]
+    return [*some_queries, {"hints": ["I am nowhere near."], "position": [5000.0, 5000.0]}]
 
 
 @pytest.mark.slow
 def test_inline_queries_get_the_report_of_the_command_line(served, command_line, queries, tmp_path):
     body = {"queries": queries, "grow": [60, 120]}
     (tmp_path / "queries.json").write_text(json.dumps(body))
-    found = evaluate(served, body)
-    assert found["status"] == "done", found
-    report = found["report"]
+    finished = evaluate(served, body)
+    assert finished["status"] == "done", finished
+    report = finished["report"]
     assert report == command_line("--data", tmp_path / "queries.json")
     assert (report["data"], report["split"]) == ("tinytown", "index")
     assert (report["queries"], report["queries_without_cell"]) == (len(queries), 1)
@@ -75,9 +75,9 @@ def test_inline_queries_get_the_report_of_the_command_line(served, command_line,
 
 @pytest.mark.slow
 def test_data_set_by_name_gets_the_report_of_the_command_line(served, command_line, strip_file):
-    found = evaluate(served, {"data": "strip", "split": "val"})
-    assert found["status"] == "done", found
-    assert found["report"] == command_line("--data", strip_file, "--split", "val")
+    finished = evaluate(served, {"data": "strip", "split": "val"})
+    assert finished["status"] == "done", finished
+    assert finished["report"] == command_line("--data", strip_file, "--split", "val")
 
 
 def test_queries_of_an_index_find_what_those_of_its_map_find(served, osm_file, localizer):
@@ -85,8 +85,8 @@ def test_queries_of_an_index_find_what_those_of_its_map_find(served, osm_file, l
     from index.evaluation.evaluation import evaluate as run
 
     data = map_of_index(localizer)
-    asked = open_source(osm_file).queries()
-    mine = Queries.from_text(asked.sentences[::40], asked.positions_m[::40], data.cells)
+    every_query = open_source(osm_file).queries()
+    mine = Queries.from_text(every_query.sentences[::40], every_query.positions_m[::40], data.cells)
     made = Ranker.from_cells(localizer.retriever, data.cells, data.gallery.labels)
     stored, anew = (run(data, mine, vectors_of_map(data, ranker)) for ranker in (localizer.ranker, made))
     assert stored == anew
@@ -94,7 +94,7 @@ def test_queries_of_an_index_find_what_those_of_its_map_find(served, osm_file, l
 
 @pytest.mark.slow
 def test_what_is_wrong_with_the_data_is_the_jobs_error(served, strip_file):
-    found = evaluate(served, {"data": "strip", "split": "north"})
-    assert found["status"] == "failed"
-    assert "'north' is not a split" in found["error"]["detail"]
-    assert str(strip_file.parent) not in found["error"]["detail"]
+    finished = evaluate(served, {"data": "strip", "split": "north"})
+    assert finished["status"] == "failed"
+    assert "'north' is not a split" in finished["error"]["detail"]
+    assert str(strip_file.parent) not in finished["error"]["detail"]

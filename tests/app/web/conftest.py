@@ -101,7 +101,7 @@ class Visitor:
     def __init__(self, page, url):
         self.page, self.url = page, url
         self.wrong = []
-        self.asked = []
+        self.posted = []
         page.set_default_timeout(60_000)
         page.on("request", self._note)
         page.on("pageerror", lambda error: self.wrong.append(str(error)))
@@ -118,7 +118,7 @@ class Visitor:
         if there.scheme not in ("data", "blob") and there.netloc != here.netloc:
             self.wrong.append(f"left the origin: {request.url}")
         if request.method == "POST":
-            self.asked.append((there.path, request.post_data_json))
+            self.posted.append((there.path, request.post_data_json))
 
     def open(self, fragment=""):
         """Open the page, and wait for its map and its chips."""

@@ -45,14 +45,14 @@ def test_a_mention_lights_its_object_up_and_the_object_its_mention(visit):
     assert page.locator(".lit").count() == 2, "for who has no mouse"
     x, y = visitor.middle()
     mention.evaluate("element => element.blur()")
-    found = False
+    is_lit = False
     for dx in range(-90, 91, 6):
         for dy in range(-90, 91, 6):
             page.mouse.move(x + dx, y + dy)
-            found = found or page.locator(f"[data-mention='{number}'].lit").count() > 0
-        if found:
+            is_lit = is_lit or page.locator(f"[data-mention='{number}'].lit").count() > 0
+        if is_lit:
             break
-    assert found, "the object under the mouse lights its words up"
+    assert is_lit, "the object under the mouse lights its words up"
 
 
 def test_a_pressed_mention_shows_where_it_is(visit):
@@ -113,7 +113,7 @@ def test_a_surprise_is_a_place_that_the_map_describes(visit):
     with visitor.page.expect_response("**/localize"):
         visitor.page.click("text=Surprise me")
     visitor.page.wait_for_selector("#answer h2")
-    described = [body for path, body in visitor.asked if path == "/localize"]
+    described = [body for path, body in visitor.posted if path == "/localize"]
     assert len(described[-1]["description"]) > 20
 
 
@@ -121,19 +121,19 @@ def test_a_question_narrows_and_its_answer_can_be_taken_back(visit):
     visitor = visit().open()
     first = visitor.ask("There is a tree to my north. There is a bench to my east.")
     assert first["status"] == "ambiguous"
-    asked = first["question"]
+    question = first["question"]
     page = visitor.page
-    assert page.inner_text(".question p") == asked["text"]
-    choice = asked["choices"][0]
+    assert page.inner_text(".question p") == question["text"]
+    choice = question["choices"][0]
     with page.expect_response("**/localize") as response:
         page.click(f".question button >> text='{choice['text']}'")
     second = response.value.json()
-    assert visitor.asked[-1][1]["answers"] == [{"question": asked["id"], "choice": choice["value"]}]
+    assert visitor.posted[-1][1]["answers"] == [{"question": question["id"], "choice": choice["value"]}]
     assert second["estimate"]["probability"] > first["estimate"]["probability"]
     page.wait_for_selector("text=You answered")
     with page.expect_response("**/localize") as response:
         page.click("#answer .chip")
-    assert response.value.json()["question"]["id"] == asked["id"]
+    assert response.value.json()["question"]["id"] == question["id"]
 
 
 def test_a_text_that_is_refused_is_rescued_by_a_reply(visit):
@@ -157,8 +157,8 @@ def test_a_name_that_is_not_offered_is_typed_and_one_that_the_map_has_not_is_tak
         page.fill(".question input", name)
         with page.expect_response("**/localize") as response:
             page.keyboard.press("Enter")
-        asked = visitor.asked[-1][1]["answers"]
-        assert asked == [{"question": first["question"]["id"], "choice": name}]
+        bodies = visitor.posted[-1][1]["answers"]
+        assert bodies == [{"question": first["question"]["id"], "choice": name}]
         if "=" in name:
             assert response.value.status == 422
             assert "on this map" in page.inner_text("#answer [role=alert]")
@@ -233,7 +233,7 @@ def test_who_asks_before_the_map_is_there_is_answered_and_the_map_is_loaded_once
     page.keyboard.press("Enter")
     page.wait_for_selector("text=nine times out of ten")
     assert len(loaded) == 1
-    assert [path for path, _ in visitor.asked].count("/localize") == 1
+    assert [path for path, _ in visitor.posted].count("/localize") == 1
 
 
 def test_an_empty_text_takes_the_answer_away(visit):
@@ -255,5 +255,5 @@ def test_garbage_in_the_address_is_left_out(visit):
     visitor = visit()
     visitor.open("#q=I+am+at+Caf%C3%A9+Sirius&near=1,2,-5&circle=,,&box=a,b,c,d&k=x&a=nothing&at=1,2")
     visitor.page.wait_for_selector("#answer h2")
-    asked = [body for path, body in visitor.asked if path == "/localize"]
-    assert set(asked[-1]) == {"description", "top_k", "heat_map"}
+    bodies = [body for path, body in visitor.posted if path == "/localize"]
+    assert set(bodies[-1]) == {"description", "top_k", "heat_map"}

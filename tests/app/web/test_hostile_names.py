@@ -61,9 +61,9 @@ def test_an_answer_and_its_evidence_have_the_names_to_the_letter(enter):
         assert [one["name"] for one in answer["evidence"]] == [name], "else this tests nothing"
         assert name in text_of(visitor, ".evidence li")
         assert name in visitor.page.locator(".mention").get_attribute("aria-label")
-        street, *beside = answer["estimate"]["place"].split(", ")
+        street, *details = answer["estimate"]["place"].split(", ")
         assert street[1:] in text_of(visitor, "#answer h2")
-        assert ", ".join(beside) in text_of(visitor, "#answer p")
+        assert ", ".join(details) in text_of(visitor, "#answer p")
         assert name in answer["estimate"]["place"]
         visitor.page.locator(".mention").click()
 
@@ -102,13 +102,13 @@ def test_a_place_that_is_clicked_is_described_with_its_names_to_the_letter(enter
     page.click("#describe")
     with page.expect_response("**/describe") as response:
         page.mouse.click(*visitor.middle())
-    said = response.value.json()["description"]
-    assert name in said, "else this tests nothing"
-    expect(page.locator("#said")).to_have_value(said)
+    described = response.value.json()["description"]
+    assert name in described, "else this tests nothing"
+    expect(page.locator("#said")).to_have_value(described)
     with page.expect_response("**/localize"):
         page.keyboard.press("Enter")
     page.wait_for_selector("#answer[aria-busy=false] h2")
-    assert said in text_of(visitor, "#answer .told")
+    assert described in text_of(visitor, "#answer .told")
 
 
 def test_what_is_typed_is_shown_to_the_letter_and_again_from_the_address(enter):

@@ -48,14 +48,14 @@ def test_a_prior_is_put_on_the_map_and_taken_off(visit):
     page.mouse.move(x + 40, y)
     with page.expect_response("**/localize") as response:
         page.mouse.up()
-    prior = visitor.asked[-1][1]["prior"]
+    prior = visitor.posted[-1][1]["prior"]
     assert 3 < prior["sigma_m"] < 500
     estimate = response.value.json()["estimate"]["position"]
     assert max(abs(a - b) for a, b in zip(estimate, prior["position"], strict=True)) < 3 * prior["sigma_m"]
     page.wait_for_url("**#*near=*")
     with page.expect_response("**/localize"):
         page.click("text=Remove")
-    assert "prior" not in visitor.asked[-1][1]
+    assert "prior" not in visitor.posted[-1][1]
 
 
 @pytest.mark.parametrize("tool", ["circle", "box"])
@@ -71,7 +71,7 @@ def test_nothing_outside_an_area_is_answered(visit, tool):
     page.mouse.move(x + 60, y + 60, steps=4)
     with page.expect_response("**/localize") as response:
         page.mouse.up()
-    within = visitor.asked[-1][1]["within"]
+    within = visitor.posted[-1][1]["within"]
     for candidate in response.value.json()["candidates"]:
         east, north = candidate["position"]
         if tool == "circle":
@@ -102,7 +102,7 @@ def test_the_keyboard_asks_moves_the_map_and_sets_an_area(visit):
     page.focus("#map .over")
     with page.expect_response("**/localize"):
         page.keyboard.press("Enter")
-    assert "circle" in visitor.asked[-1][1]["within"]
+    assert "circle" in visitor.posted[-1][1]["within"]
 
 
 def test_the_address_says_all_and_is_enough_to_see_the_same(visit):
@@ -126,12 +126,12 @@ def test_the_address_says_all_and_is_enough_to_see_the_same(visit):
 def test_heat_and_cells_are_drawn_when_they_are_wanted(visit):
     visitor = visit().open()
     visitor.ask(VAGUE)
-    seen = [drawn(visitor)]
+    pictures = [drawn(visitor)]
     visitor.page.click("text=Show more on the map")
     for wanted in ("Heat: where it might be", "Cells that were found"):
         visitor.page.click(f"text={wanted}")
-        seen.append(drawn(visitor))
-    assert len(set(seen)) == 3
+        pictures.append(drawn(visitor))
+    assert len(set(pictures)) == 3
 
 
 def test_a_service_that_went_away_is_told_of_and_asked_again(visit):

@@ -15,21 +15,21 @@ class Fake:
     facts, frame = FakeLocalizer.facts, FakeLocalizer().frame
 
     def localize(self, queries):
-        said = queries[0].description
-        if said == "die":
+        text = queries[0].description
+        if text == "die":
             os._exit(1)
-        if said.startswith("die once ") and not os.path.exists(said[9:]):
-            open(said[9:], "w").close()
+        if text.startswith("die once ") and not os.path.exists(text[9:]):
+            open(text[9:], "w").close()
             os.kill(os.getpid(), signal.SIGKILL)
-        if said == "reply":
+        if text == "reply":
             raise ReplyError(2, "choice", "another one")
-        if said == "fault":
+        if text == "fault":
             raise KeyError("what it was")
-        if "quoted" in said:
-            raise ValueError(f"cannot read {said!r}")
-        if "deadly" in said:
+        if "quoted" in text:
+            raise ValueError(f"cannot read {text!r}")
+        if "deadly" in text:
             os._exit(1)
-        if said == "slow":
+        if text == "slow":
             time.sleep(0.5)
         return [Answer("no_match", FakeLocalizer.facts.model, warnings=(str(os.getpid()), str(os.getppid())))]
 

@@ -47,21 +47,21 @@ def test_what_is_whole_passes_and_a_flipped_bit_is_named_without_its_place(root)
 
 
 @pytest.mark.parametrize(
-    ("code", "said"), [("import os; os.kill(os.getpid(), 9)", "status -9"), ("1 / 0", "ZeroDivisionError")]
+    ("code", "note"), [("import os; os.kill(os.getpid(), 9)", "status -9"), ("1 / 0", "ZeroDivisionError")]
 )
-def test_a_process_that_does_not_end_well_does_not_make_an_index_broken(root, monkeypatch, code, said):
+def test_a_process_that_does_not_end_well_does_not_make_an_index_broken(root, monkeypatch, code, message):
     monkeypatch.setattr(sums, "PROCESS", (sys.executable, "-c", code))
-    with pytest.raises(HereaboutsError, match=f"(?s){said}") as failed:
+    with pytest.raises(HereaboutsError, match=f"(?s){message}") as failed:
         asyncio.run(sums.check_version(root, version_of(root)))
     assert not isinstance(failed.value, IndexBroken)
     assert "hereabouts verify" in str(failed.value)
 
 
 def test_it_gives_way_and_ends_with_who_waits_for_it(root, monkeypatch, tmp_path):
-    said = tmp_path / "said"
+    note = tmp_path / "said"
     code = (
         "import os, sys, time, pathlib; from app.workers import checksums as sums\n"
-        f"sums.open_version = lambda path: (pathlib.Path({str(said)!r}).write_text(f'{{os.getpid()}} {{os.nice(0)}}'),"
+        f"sums.open_version = lambda path: (pathlib.Path({str(note)!r}).write_text(f'{{os.getpid()}} {{os.nice(0)}}'),"
         " time.sleep(60))\n"
         "sums.main(pathlib.Path(sys.argv[1]))"
     )
@@ -70,13 +70,13 @@ def test_it_gives_way_and_ends_with_who_waits_for_it(root, monkeypatch, tmp_path
     async def run():
         task = asyncio.create_task(sums.check_version(root, version_of(root)))
         async with asyncio.timeout(60):
-            while not (said.exists() and said.read_text()):
+            while not (note.exists() and note.read_text()):
                 await asyncio.sleep(0.01)
         task.cancel()
         await asyncio.gather(task, return_exceptions=True)
 
     asyncio.run(run())
-    pid, niceness = map(int, said.read_text().split())
+    pid, niceness = map(int, note.read_text().split())
     assert niceness == sums.NICENESS
     with pytest.raises(ProcessLookupError):
         os.kill(pid, signal.SIGKILL)
@@ -102,7 +102,7 @@ def test_a_flipped_bit_ends_readiness_by_name_until_the_alias_moves_to_what_is_w
     monkeypatch.setattr(main, "open_workers", lambda _order, _count: [FakeLocalizer()])
     monkeypatch.setattr(main, "check_version", lambda where, _: sums.check_version(where, version_of(where)))
     monkeypatch.setattr(indexes, "ALIAS_POLL_S", 0.05)
-    said = logged("info")
+    note = logged("info")
     with TestClient(create_app(Settings(index_dir=root))) as api:
         until(lambda: api.get("/readyz").json().get("code") == "load_failed")
         for response in (api.get("/readyz"), api.post("/localize", json=body), api.get("/cells/x")):
@@ -117,6 +117,6 @@ def test_a_flipped_bit_ends_readiness_by_name_until_the_alias_moves_to_what_is_w
         assert api.post("/localize", json=body).status_code == 200
         until(api.app.state.indexes._served["default"].checking.done)
         assert api.get("/readyz").status_code == 200
-    lines = said().splitlines()
+    lines = note().splitlines()
     assert len([line for line in lines if "index broken" in line and "statements.safetensors" in line]) == 1
     assert len([line for line in lines if "index verified" in line]) == 1

@@ -153,12 +153,12 @@ def test_what_kills_every_worker_is_refused_and_the_next_is_answered(workers):
     ],
 )
 def test_no_line_has_what_was_said_when_a_worker_fails_of_it(logged, until, text, faults):
-    said, body = logged(), {"description": text}
+    read_log, body = logged(), {"description": text}
     with TestClient(create_app(Settings(), lambda: open_workers(Order(), 1)[0])) as api:
         until(lambda: api.get("/readyz").status_code == 200)
         assert api.post("/localize", json=body).status_code == 500
         assert api.post("/localize/batch", json={"items": [body, body]}).status_code == 500
-    lines = said()
+    lines = read_log()
     assert all(fault in lines for fault in faults), "where it happened is told"
     assert "quixotic" not in lines
 
@@ -198,12 +198,12 @@ def anonymous_mib():
 @pytest.mark.skipif(not hasattr(ctypes.CDLL(None), "malloc_trim"), reason="the C library is not glibc")
 def test_memory_that_is_free_is_given_back_though_some_above_it_is_not() -> None:
     lists = [bytearray(5000) for _ in range(20_000)]
-    kept = lists[::1000]
+    survivors = lists[::1000]
     del lists
     before = anonymous_mib()
     give_back()
     assert anonymous_mib() < before - 50
-    assert len(kept) == 20
+    assert len(survivors) == 20
 
 
 def test_a_worker_gives_memory_back_when_it_rests_after_many_answers(monkeypatch):

@@ -86,12 +86,12 @@ def test_what_is_said_is_true(localizer, scan, positions):
 
 def test_three_to_six_sentences_each_of_another_thing(localizer, nameless, positions):
     for position in positions:
-        for said in (localizer.describe((float(position[0]), float(position[1]))), nameless.describe(position)):
-            assert 3 <= len(said.hints) <= MAX_FACTS
-            assert said.description == " ".join(fact.text for fact in said.hints)
-            for told in ([f.source_id for f in said.hints], [f.text for f in said.hints]):
-                assert len(set(told)) == len(told)
-            names = [fact.name for fact in said.hints if fact.name]
+        for described in (localizer.describe((float(position[0]), float(position[1]))), nameless.describe(position)):
+            assert 3 <= len(described.hints) <= MAX_FACTS
+            assert described.description == " ".join(fact.text for fact in described.hints)
+            for values in ([f.source_id for f in described.hints], [f.text for f in described.hints]):
+                assert len(set(values)) == len(values)
+            names = [fact.name for fact in described.hints if fact.name]
             assert len(set(names)) == len(names)
 
 
@@ -102,12 +102,12 @@ def test_the_same_words_each_time(localizer, nameless, positions):
 
 
 def test_a_described_position_knows_its_cell_and_place(localizer, cells):
-    said = localizer.describe((60.0, 61.0))
+    described = localizer.describe((60.0, 61.0))
     nearest = np.hypot(*(localizer.gallery.cells.center_m[:, :2] - (60.0, 61.0)).T).argmin()
-    assert said.cell_id == localizer.gallery.cells.ids[nearest]
-    assert said.position == (60.0, 61.0)
-    assert said.place.startswith("at the corner of ") or said.place.startswith("on ")
-    assert localizer.frame.from_wgs84(said.wgs84.lat, said.wgs84.lon) == pytest.approx([60.0, 61.0], abs=0.02)
+    assert described.cell_id == localizer.gallery.cells.ids[nearest]
+    assert described.position == (60.0, 61.0)
+    assert described.place.startswith("at the corner of ") or described.place.startswith("on ")
+    assert localizer.frame.from_wgs84(described.wgs84.lat, described.wgs84.lon) == pytest.approx([60.0, 61.0], abs=0.02)
 
 
 @pytest.mark.parametrize("position", [(-400.0, 0.0), (1e8, 1e8), (-1e8, 0.0)])
@@ -123,8 +123,8 @@ def test_there_is_nothing_to_say_where_nothing_is_near(source, bare):
 
 def test_names_are_told_from_farther_where_little_else_can_be_told(source, surroundings, bare, nameless, positions):
     data = source.data
-    at = next(position for position in positions if len(nameless.describe(position).hints) == MAX_FACTS)
-    x, y = at.tolist()
+    place_m = next(position for position in positions if len(nameless.describe(position).hints) == MAX_FACTS)
+    x, y = place_m.tolist()
     town = named(
         ("amenity/cafe", "Elmo", point(x, y + 20)),
         ("amenity/pub", "Anna", point(x, y + 50)),
@@ -133,24 +133,26 @@ def test_names_are_told_from_farther_where_little_else_can_be_told(source, surro
         ("shop/books", "Arkadia", point(x, y - FAR_VISIBLE_M - 1)),
     )
     full, empty = (Describer(data.gallery, data.palette, data.frame, near, town) for near in (surroundings, bare))
-    assert [fact.name for fact in full.describe(at).hints if fact.name in {"Elmo", "Anna", "Berta", "Otto"}] == ["Elmo"]
+    assert [fact.name for fact in full.describe(place_m).hints if fact.name in {"Elmo", "Anna", "Berta", "Otto"}] == [
+        "Elmo"
+    ]
     # each side in turn
-    assert [fact.name for fact in empty.describe(at).hints] == ["Elmo", "Anna", "Otto", "Berta"]
+    assert [fact.name for fact in empty.describe(place_m).hints] == ["Elmo", "Anna", "Otto", "Berta"]
 
 
 def test_the_street_and_what_has_a_name():
     town = made_gazetteer()
-    at = np.array([215.0, 84.0])
-    [street] = street_facts(town, at, 2)
+    place_m = np.array([215.0, 84.0])
+    [street] = street_facts(town, place_m, 2)
     assert street.text == "I am at the corner of West 25th Street and 10th Avenue."
     assert (street.instance, street.name, street.at) == (STREET_KIND, "West 25th Street", (215.0, 80.0))
-    facts = NamedFacts(town).facts(at, VISIBLE_M)
+    facts = NamedFacts(town).facts(place_m, VISIBLE_M)
     assert [fact.text for fact in facts] == ["Bottino is 8 m to my north.", "Chelsea Park is 29 m to my southeast."]
     assert (facts[0].at, facts[0].away_m, facts[0].bearing_deg) == ((215.0, 92.0), 8.0, 0.0)
 
 
 @pytest.mark.parametrize(
-    ("at", "most_crossing", "said"),
+    ("place_m", "most_crossing", "described"),
     [
         ((90, 84), 0, ["I am on West 25th Street, between 11th Avenue and 10th Avenue."]),
         ((90, 84), 1, ["I am on West 25th Street.", "11th Avenue is 90 m to my west."]),
@@ -163,9 +165,9 @@ def test_the_street_and_what_has_a_name():
         ((100, 300), 3, []),
     ],
 )
-def test_where_on_a_street(at, most_crossing, said):
-    facts = street_facts(made_gazetteer(), np.array(at, dtype=float), most_crossing)
-    assert [fact.text for fact in facts] == said
+def test_where_on_a_street(place_m, most_crossing, phrase):
+    facts = street_facts(made_gazetteer(), np.array(place_m, dtype=float), most_crossing)
+    assert [fact.text for fact in facts] == phrase
 
 
 def named(*objects):

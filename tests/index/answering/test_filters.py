@@ -27,11 +27,11 @@ def test_the_cells_inside_are_those_of_which_a_node_is(localizer, crs) -> None:
     positions_m, shares = surroundings.positions_m(nodes), []
     for within in regions(localizer, crs):
         query = Query("a tree", within=within, crs=crs)
-        found = nodes_inside(query, surroundings, centers_m, localizer.frame)
+        inside = nodes_inside(query, surroundings, centers_m, localizer.frame)
         every = is_inside(query, positions_m, localizer.frame)
-        assert (found.holds(positions_m) == every).all()
+        assert (inside.holds(positions_m) == every).all()
         naive = np.bincount(surroundings.owner(nodes[every]), minlength=len(centers_m)) > 0
-        assert (found.cells == naive).all()
+        assert (inside.cells == naive).all()
         shares.append(naive.mean())
     assert min(shares) < 0.1
     assert max(shares) > 0.3
@@ -50,8 +50,8 @@ def test_few_nodes_are_looked_at_however_many_there_are(localizer) -> None:
 
     centers_m = localizer.gallery.cells.center_m[:, :2]
     box = Box(*(centers_m.min(axis=0) + 40).tolist(), *(centers_m.max(axis=0) - 40).tolist())
-    found = nodes_inside(Query("a tree", within=box, crs="map"), Looked(), centers_m, localizer.frame)
-    assert found.cells.sum() > 20
+    inside = nodes_inside(Query("a tree", within=box, crs="map"), Looked(), centers_m, localizer.frame)
+    assert inside.cells.sum() > 20
     assert sum(looked) < 0.8 * surroundings.cell_starts[-1], "those at the border alone"
 
 

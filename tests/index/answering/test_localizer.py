@@ -69,14 +69,14 @@ def test_the_estimate_is_the_best_cells_centre_and_says_so(localizer) -> None:
 
 
 def test_uncertainty_is_wide_when_unsure_and_narrow_when_told(localizer) -> None:
-    unsure, told = ask(localizer), ask(localizer, within=Circle((0.0, 0.0), 1.0))
-    assert len(told.candidates) == 1
-    assert told.candidates[0].probability == pytest.approx(1)
-    assert told.status == "ok"
+    unsure, inside = ask(localizer), ask(localizer, within=Circle((0.0, 0.0), 1.0))
+    assert len(inside.candidates) == 1
+    assert inside.candidates[0].probability == pytest.approx(1)
+    assert inside.status == "ok"
     assert unsure.status == "ambiguous", "an untrained model knows nothing"
     assert unsure.estimate.radius_m.p90 > 60
-    assert 0 < told.estimate.radius_m.p90 < 15
-    for answer in (unsure, told):
+    assert 0 < inside.estimate.radius_m.p90 < 15
+    for answer in (unsure, inside):
         covariance = np.array(answer.estimate.covariance)
         assert np.isfinite(covariance).all()
         assert (np.linalg.eigvalsh(covariance) > 0).all()
@@ -140,10 +140,10 @@ def test_odd_texts_get_an_honest_answer(localizer, text) -> None:
 def test_templates_and_what_cannot_be_read_are_encoded_as_they_are(localizer) -> None:
     template = "The pose is on-top of a road. The pose is north of a tree."
     unread = "Hm. The weather is fine."
-    found = localizer.sentences([template, unread, "a tree stands south of where I am"])
-    assert found[0] == ("The pose is on-top of a road.", "The pose is north of a tree.")
-    assert found[1] == ("Hm.", "The weather is fine.")
-    assert found[2] == ("The pose is north of a tree.",)
+    split = localizer.sentences([template, unread, "a tree stands south of where I am"])
+    assert split[0] == ("The pose is on-top of a road.", "The pose is north of a tree.")
+    assert split[1] == ("Hm.", "The weather is fine.")
+    assert split[2] == ("The pose is north of a tree.",)
 
 
 def test_template_hints_are_never_read_again(index_dir, weights_dir, monkeypatch) -> None:

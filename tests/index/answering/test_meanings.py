@@ -94,13 +94,13 @@ def test_meanings_are_saved_and_read_back(lookup, meanings, text_encoder, tmp_pa
 
 
 def test_what_is_said_again_is_not_embedded_again(meanings, text_encoder, tmp_path) -> None:
-    said: list[str] = []
+    embedded: list[str] = []
     meanings.save(tmp_path)
-    counted = Meanings.load(tmp_path, lambda some: said.extend(some) or text_encoder.embed(some))
+    counted = Meanings.load(tmp_path, lambda texts: embedded.extend(texts) or text_encoder.embed(texts))
     assert [counted.like(each) for each in ("the baby shop", "green red", "the baby shop", "green red")] == [
         meanings.like(each) for each in ("the baby shop", "green red") * 2
     ]
-    assert said == ["baby shop", "green red"]
+    assert embedded == ["baby shop", "green red"]
 
 
 def test_a_map_without_names_means_nothing(text_encoder, tmp_path) -> None:

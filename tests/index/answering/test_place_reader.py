@@ -22,38 +22,38 @@ def corner_m(localizer, street, path):
 
 
 def answer(localizer, text: str, **given):
-    [found] = localizer.localize([Query(text, **given)])
-    return found
+    [result] = localizer.localize([Query(text, **given)])
+    return result
 
 
 @pytest.mark.parametrize(
     "text", ["I'm at the corner of East Street 2 and North Path 3", "east street 2 at north path 3"]
 )
 def test_a_corner_is_found_and_said(localizer, text) -> None:
-    found = answer(localizer, text)
-    assert found.estimate is not None
-    assert np.hypot(*(found.estimate.position - corner_m(localizer, 2, 3))) < 8.0
-    assert found.estimate.place is not None
-    assert "corner of" in found.estimate.place
-    assert all(name in found.estimate.place for name in ("East Street 2", "North Path 3"))
-    assert found.estimate.heading is None, "nothing tells where the speaker looks"
+    result = answer(localizer, text)
+    assert result.estimate is not None
+    assert np.hypot(*(result.estimate.position - corner_m(localizer, 2, 3))) < 8.0
+    assert result.estimate.place is not None
+    assert "corner of" in result.estimate.place
+    assert all(name in result.estimate.place for name in ("East Street 2", "North Path 3"))
+    assert result.estimate.heading is None, "nothing tells where the speaker looks"
 
 
 def test_a_span_lies_between_its_paths(localizer) -> None:
-    found = answer(localizer, "I'm on East Street 2 between North Path 1 and North Path 2")
+    result = answer(localizer, "I'm on East Street 2 between North Path 1 and North Path 2")
     west, east = corner_m(localizer, 2, 1), corner_m(localizer, 2, 2)
-    assert found.estimate is not None
-    x, y = found.estimate.position
+    assert result.estimate is not None
+    x, y = result.estimate.position
     assert west[0] - 10 < x < east[0] + 10
     assert abs(y - west[1]) < 12
 
 
 def test_a_heading_is_told_by_left_and_ahead(localizer) -> None:
-    found = answer(
+    result = answer(
         localizer, "I'm at East Street 2 and North Path 3. East Street 3 is straight ahead, North Path 2 is on my left."
     )
-    assert found.estimate is not None
-    heading = found.estimate.heading
+    assert result.estimate is not None
+    heading = result.estimate.heading
     assert heading is not None
     assert min(heading.mean_deg, 360 - heading.mean_deg) < 40, "the next street lies to the north"
 
@@ -72,54 +72,56 @@ def test_a_text_that_comes_again_is_not_read_again(localizer, monkeypatch) -> No
 
 
 def test_what_is_remembered_is_bounded_by_its_size(localizer) -> None:
-    kept = localizer.posterior.places._cache
-    kept.clear()
+    owned = localizer.posterior.places._cache
+    owned.clear()
     answer(localizer, "a bench by some trees, a building across the street, at a crossing")
-    [mentions] = kept.values()
+    [mentions] = owned.values()
     arrays = sum(mention.objects.nbytes + mention.weights.nbytes for mention in mentions)
     assert arrays > 0
-    assert arrays < kept.currsize < arrays + 20_000
-    assert kept.maxsize < 2**25
+    assert arrays < owned.currsize < arrays + 20_000
+    assert owned.maxsize < 2**25
 
 
 def test_a_contradiction_is_told_of(localizer) -> None:
-    found = answer(localizer, "I'm on the north side of East Street 2 and on the south side of East Street 2.")
-    assert found.estimate is not None
-    assert any("its north side and its south side" in warning for warning in found.warnings)
-    assert found.status == "ambiguous"
+    result = answer(localizer, "I'm on the north side of East Street 2 and on the south side of East Street 2.")
+    assert result.estimate is not None
+    assert any("its north side and its south side" in warning for warning in result.warnings)
+    assert result.status == "ambiguous"
 
 
 def test_evidence_names_what_explains_and_warns_of_what_is_not_there(localizer) -> None:
-    found = answer(localizer, "I'm on East Street 2, next to Zorba's Taverna, at North Path 3")
-    by_text = {hint.text: hint for hint in found.evidence}
-    assert any("Zorba" in warning for warning in found.warnings)
+    result = answer(localizer, "I'm on East Street 2, next to Zorba's Taverna, at North Path 3")
+    by_text = {hint.text: hint for hint in result.evidence}
+    assert any("Zorba" in warning for warning in result.warnings)
     street = next(hint for text, hint in by_text.items() if "East Street 2" in text)
     assert street.explained > 0.5
     unknown = next(hint for text, hint in by_text.items() if "Zorba" in text)
     assert unknown.explained == 0.0
     assert unknown.exact is False
-    assert found.estimate is not None
-    assert np.hypot(*(found.estimate.position - corner_m(localizer, 2, 3))) < 15.0, (
+    assert result.estimate is not None
+    assert np.hypot(*(result.estimate.position - corner_m(localizer, 2, 3))) < 15.0, (
         "a name that is unknown does no harm"
     )
 
 
 def test_evidence_says_where_what_explains_it_is(localizer) -> None:
     text = "I'm at the corner of East Street 2 and North Path 3, a post box on my left, a cafe across the street"
-    found = answer(localizer, text)
-    away = [hint for hint in found.evidence if hint.at and hint.bearing_deg is not None and hint.away_m > 1.0]
+    result = answer(localizer, text)
+    away = [hint for hint in result.evidence if hint.at and hint.bearing_deg is not None and hint.away_m > 1.0]
     assert away
     for hint in away:
-        east, north = np.subtract(hint.at, found.estimate.position)
+        east, north = np.subtract(hint.at, result.estimate.position)
         assert np.hypot(east, north) == pytest.approx(hint.away_m, abs=0.1)
         assert np.degrees(np.arctan2(east, north)) % 360 == pytest.approx(hint.bearing_deg, abs=3)
 
 
 def test_another_language_is_answered_by_names_with_a_warning(localizer) -> None:
-    found = answer(localizer, "Ich stehe an der Ecke East Street 2 und North Path 3, links von mir ist ein Briefkasten")
-    assert any("German" in warning for warning in found.warnings)
-    assert found.estimate is not None
-    assert np.hypot(*(found.estimate.position - corner_m(localizer, 2, 3))) < 40.0
+    result = answer(
+        localizer, "Ich stehe an der Ecke East Street 2 und North Path 3, links von mir ist ein Briefkasten"
+    )
+    assert any("German" in warning for warning in result.warnings)
+    assert result.estimate is not None
+    assert np.hypot(*(result.estimate.position - corner_m(localizer, 2, 3))) < 40.0
 
 
 def test_winds_are_seen_from_the_listener(localizer) -> None:
@@ -134,11 +136,11 @@ def test_winds_are_seen_from_the_listener(localizer) -> None:
 
 
 def test_a_start_off_the_map_is_a_prior_too(localizer) -> None:
-    found = answer(
+    result = answer(
         localizer, "Meet me at the corner of East Street 2 and North Path 3.", prior=Prior((5000.0, 0.0), 800.0)
     )
-    assert found.estimate is not None
-    assert np.isfinite(found.estimate.position).all()
+    assert result.estimate is not None
+    assert np.isfinite(result.estimate.position).all()
 
 
 @pytest.mark.parametrize(
@@ -146,18 +148,18 @@ def test_a_start_off_the_map_is_a_prior_too(localizer) -> None:
     ["East Street 2 " * 280, "5 km 5 km 5 km", "no, none, nothing", "meet me at the", "1/2 3/4", "at at at on on on"],
 )
 def test_odd_texts_are_answered_without_numbers_that_are_none(localizer, text) -> None:
-    found = answer(localizer, text)
-    assert found.estimate is None or np.isfinite([*found.estimate.position, found.estimate.radius_m.p90]).all()
+    result = answer(localizer, text)
+    assert result.estimate is None or np.isfinite([*result.estimate.position, result.estimate.radius_m.p90]).all()
 
 
 def test_what_is_near_stays_a_hint_and_what_the_heading_tells_is_a_mention(localizer) -> None:
     posterior = localizer.posterior
-    for text, kept in (("I am north of a bench.", 1), ("There is a bench on my left.", 0)):
+    for text, owned in (("I am north of a bench.", 1), ("There is a bench on my left.", 0)):
         [hints] = posterior.chunk_reader.parse([text])
         trust = posterior.binding.reading(hints).label.amax(dim=1).tolist()
         mentions = posterior.places.read(text, "en", to_listener=False)
         near, places = near_hints(hints, trust, mentions)
-        assert (len(near), len(places)) == (kept, 1 - kept)
+        assert (len(near), len(places)) == (owned, 1 - owned)
 
 
 @pytest.mark.parametrize(("hint", "mention"), [("bench", "Kiosk"), ("Kiosk", "bench")])
@@ -165,19 +167,19 @@ def test_a_measure_that_both_claim_is_of_the_nearer(localizer, hint, mention) ->
     text = "A bench is 20 m to my west, and there is a Kiosk."
     [measure] = find_measures(text)
     [read] = localizer.posterior.chunk_reader.parse(["The pose is south of a bench."])[0]
-    at, other = text.index(hint), text.index(mention)
-    noticed = replace(read, start=at, end=at + len(hint), measure=measure)
+    hint_start, other = text.index(hint), text.index(mention)
+    noticed = replace(read, start=hint_start, end=hint_start + len(hint), measure=measure)
     named = Mention(mention, other, other + len(mention), "thing", cue=Cue(measure=measure))
-    [kept], [place] = with_one_owner(text, [noticed], [named])
-    assert (kept.measure, place.cue.measure) == ((measure, None) if hint == "bench" else (None, measure))
+    [owned], [place] = with_one_owner(text, [noticed], [named])
+    assert (owned.measure, place.cue.measure) == ((measure, None) if hint == "bench" else (None, measure))
     apart = replace(named, cue=Cue(measure=replace(measure, start=0, end=1)))
     assert with_one_owner(text, [noticed], [apart]) == ([noticed], [apart])
 
 
 def test_a_measure_is_of_one_hint_or_mention_of_an_answer(localizer) -> None:
-    found = answer(localizer, "I'm on East Street 2, twenty-five meters from a bench, and a tree is west of me.")
-    assert [hint.text for hint in found.evidence if hint.distance_m is not None] == ["bench"]
-    assert {hint.distance_m for hint in found.evidence} == {25.0, None}
+    result = answer(localizer, "I'm on East Street 2, twenty-five meters from a bench, and a tree is west of me.")
+    assert [hint.text for hint in result.evidence if hint.distance_m is not None] == ["bench"]
+    assert {hint.distance_m for hint in result.evidence} == {25.0, None}
 
 
 def test_a_class_that_the_gazetteer_lacks_stays_a_hint(localizer) -> None:
@@ -213,8 +215,8 @@ def test_radii_are_scaled_by_what_the_text_is_of(localizer, monkeypatch) -> None
 
 def test_what_is_said_of_a_place_to_meet_at_is_not_what_is_near(localizer) -> None:
     """Classes of the map are hints about the speaker's surroundings, but not where somebody else is told to come."""
-    said = "a bench is south of it, and a building west of it."
-    told = answer(localizer, "Meet me on East Street 2: " + said)
-    own = answer(localizer, "I'm on East Street 2: " + said)
+    hints_text = "a bench is south of it, and a building west of it."
+    meeting = answer(localizer, "Meet me on East Street 2: " + hints_text)
+    own = answer(localizer, "I'm on East Street 2: " + hints_text)
     assert {one.exact for one in own.evidence} > {None}, "hints about what is near have no exact name"
-    assert None not in {one.exact for one in told.evidence}
+    assert None not in {one.exact for one in meeting.evidence}

@@ -13,7 +13,7 @@ def town():
 
 
 @pytest.mark.parametrize(
-    ("at", "street"),
+    ("position", "street"),
     [
         (
             (200, 80),
@@ -26,13 +26,13 @@ def town():
         ((200, 425), {"on Harlem Road"}),
     ],
 )
-def test_the_street(town, at, street) -> None:
-    text = place_text(town, np.array(at, dtype=float))
+def test_the_street(town, position, street) -> None:
+    text = place_text(town, np.array(position, dtype=float))
     assert any(text == one or text.startswith(f"{one}, ") for one in street)
 
 
 @pytest.mark.parametrize(
-    ("at", "beside"),
+    ("position", "expected"),
     [
         ((215, 102), "10 m north of Bottino"),
         ((195, 92), "20 m west of Bottino"),
@@ -42,9 +42,9 @@ def test_the_street(town, at, street) -> None:
         ((285, 40), "at Chelsea Park"),
     ],
 )
-def test_beside_a_named_thing(town, at, beside) -> None:
-    text = place_text(town, np.array(at, dtype=float))
-    assert text == beside or text.endswith(f", {beside}")
+def test_beside_a_named_thing(town, position, expected) -> None:
+    text = place_text(town, np.array(position, dtype=float))
+    assert text == expected or text.endswith(f", {expected}")
 
 
 def test_a_thing_without_a_street(town) -> None:

@@ -28,9 +28,9 @@ def _noticed(relation, thing, start):
     colour = next((c for c in COLOURS if thing.startswith(c + " ")), None)
     noun = thing.removeprefix(f"{colour} ")
     start += len(thing) - len(noun)
-    said = torch.eye(len(COLOURS) + 1)[COLOURS.index(colour) if colour else -1]
+    colours = torch.eye(len(COLOURS) + 1)[COLOURS.index(colour) if colour else -1]
     return ParsedHint(
-        noun, start, start + len(noun), torch.eye(len(RELATIONS))[RELATIONS.index(relation)], said, 0.0, None
+        noun, start, start + len(noun), torch.eye(len(RELATIONS))[RELATIONS.index(relation)], colours, 0.0, None
     )
 
 
@@ -60,20 +60,20 @@ def answer(posterior):
 
 
 @pytest.fixture(scope="module")
-def surest(posterior, asked):
+def surest(posterior, data_and_queries):
     """Of some queries, that whose first candidate is the likeliest: the town repeats itself."""
-    found = posterior.find([Query(" ".join(said)) for said in asked[1].sentences[:30]])
-    return int(np.argmax([finding.located.probability[0] for finding in found]))
+    results = posterior.find([Query(" ".join(hints)) for hints in data_and_queries[1].sentences[:30]])
+    return int(np.argmax([finding.located.probability[0] for finding in results]))
 
 
 @pytest.fixture(scope="module")
-def query(asked, surest):
-    return Query(" ".join(asked[1].sentences[surest]))
+def query(data_and_queries, surest):
+    return Query(" ".join(data_and_queries[1].sentences[surest]))
 
 
-def test_an_answer_is_whole_and_says_why(answer, query, asked, surest, scan):
+def test_an_answer_is_whole_and_says_why(answer, query, data_and_queries, surest, scan):
     answer = answer(replace(query, heat_map=True, top_k=3))
-    truth = asked[1].positions_m[surest]
+    truth = data_and_queries[1].positions_m[surest]
     assert answer.status == "ok"
     assert answer.estimate.method == "posterior"
     assert np.hypot(*(np.array(answer.estimate.position) - truth)) < 15
@@ -82,7 +82,7 @@ def test_an_answer_is_whole_and_says_why(answer, query, asked, surest, scan):
     assert total == pytest.approx(1.0)
     assert answer.estimate.wgs84 is not None
     assert 0 < answer.estimate.radius_m.p50 <= answer.estimate.radius_m.p90
-    assert len(answer.evidence) == len(asked[1].sentences[surest])
+    assert len(answer.evidence) == len(data_and_queries[1].sentences[surest])
     assert np.mean([hint.explained > 0.5 for hint in answer.evidence]) > 0.6
     shown = [hint for hint in answer.evidence if hint.instance]
     assert shown
@@ -99,8 +99,8 @@ def test_an_answer_is_whole_and_says_why(answer, query, asked, surest, scan):
     assert points[:, 2].sum() <= 1.0 + 1e-9
 
 
-def test_a_heat_map_holds_what_is_known_however_vague_the_text(answer, posterior, asked):
-    vague = Query(asked[1].sentences[0][0], heat_map=True)
+def test_a_heat_map_holds_what_is_known_however_vague_the_text(answer, posterior, data_and_queries):
+    vague = Query(data_and_queries[1].sentences[0][0], heat_map=True)
     heat, located = answer(vague).heat_map, posterior.find([vague])[0].located
     assert heat.spacing_m > located.spacing_m
     assert len(heat.points) <= 500
@@ -134,22 +134,22 @@ def test_a_prior_pulls(answer, query):
 
 
 def test_a_text_about_nothing_is_no_match(answer):
-    found = answer(Query("It rains and I like it."))
-    assert (found.status, found.estimate) == ("no_match", None)
-    assert "north of a gray building" in found.warnings[0]
-    assert found.question is None  # no name could be asked for on this map
+    results = answer(Query("It rains and I like it."))
+    assert (results.status, results.estimate) == ("no_match", None)
+    assert "north of a gray building" in results.warnings[0]
+    assert results.question is None  # no name could be asked for on this map
 
 
 def test_things_that_the_map_has_not_are_no_match(answer):
-    found = answer(Query("The pose is north of a pink giraffe. The pose is east of a purple elephant."))
-    assert found.status == "no_match" or found.estimate.probability < 0.1
+    results = answer(Query("The pose is north of a pink giraffe. The pose is east of a purple elephant."))
+    assert results.status == "no_match" or results.estimate.probability < 0.1
 
 
-def test_the_evaluation_asks_it_and_measures_its_coverage(posterior, asked, tmp_path):
-    data, queries = asked
+def test_the_evaluation_asks_it_and_measures_its_coverage(posterior, data_and_queries, tmp_path):
+    data, queries = data_and_queries
     rows = np.arange(0, len(queries), max(1, len(queries) // 40))
-    some = replace(queries.take(rows), hints=None)
-    report = evaluate(data, some, posterior, tmp_path, grow_m=[60, 120])
+    subset = replace(queries.take(rows), hints=None)
+    report = evaluate(data, subset, posterior, tmp_path, grow_m=[60, 120])
     assert report["retrieval"]["1"] > 0.4
     assert report["method"] == "posterior"
     assert set(report["coverage"]) == {"p50", "p90"}

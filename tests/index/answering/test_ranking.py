@@ -65,9 +65,9 @@ def test_some_cells_score_as_in_the_whole(weighted, cells, labels, expected) -> 
     ranker, rows = Ranker.from_cells(weighted, cells, labels), np.array([7, 3, 100])
     [text] = weighted.encode_texts(TEXTS[:1])
     assert ranker.score(text, rows) == pytest.approx(expected[0][rows], abs=1e-5)
-    scores, found = ranker_on_some_cells(ranker, rows).rank([text], 3)
+    scores, order = ranker_on_some_cells(ranker, rows).rank([text], 3)
     assert sorted(scores[0]) == pytest.approx(sorted(expected[0][rows]), abs=1e-5)
-    assert sorted(found[0]) == [0, 1, 2]
+    assert sorted(order[0]) == [0, 1, 2]
 
 
 def test_without_weights_z_scores_are_added(mncl, cells, labels) -> None:

@@ -24,7 +24,7 @@ class OracleRefiner:
     method, name, fingerprint, error_m = "regressor", "oracle", "told", 0.5
 
     def __init__(self, cells, positions_m):
-        self.cells, self.positions_m, self.asked = cells, positions_m, 0
+        self.cells, self.positions_m, self.rows_refined = cells, positions_m, 0
 
     def with_point_features(self, cells):
         return cells
@@ -32,14 +32,16 @@ class OracleRefiner:
     def predict(self, descriptions, cells, rows):
         assert len(cells) == len(self.cells)
         assert len(descriptions) == len(rows)
-        positions = self.positions_m[self.asked : self.asked + len(rows)]  # they are asked in order, some at a time
-        self.asked += len(rows)
+        positions = self.positions_m[
+            self.rows_refined : self.rows_refined + len(rows)
+        ]  # they are asked in order, some at a time
+        self.rows_refined += len(rows)
         return (positions[:, None] - self.cells.center_m[rows, :2]) / self.cells.size_m + 0.5
 
 
 @pytest.fixture(scope="module")
-def ranker(asked, model):
-    return Ranker.from_cells(model, asked[0].cells, asked[0].gallery.labels)
+def ranker(data_and_queries, model):
+    return Ranker.from_cells(model, data_and_queries[0].cells, data_and_queries[0].gallery.labels)
 
 
 @pytest.fixture
@@ -48,10 +50,12 @@ def regressor(text_encoder):
     return Regressor(text_encoder, RegressorConfig(width=32, error_m=2.0)).eval()
 
 
-def test_a_refiner_that_knows_the_truth_scores_one(asked, ranker, tmp_path) -> None:
-    data, queries = asked
-    report = evaluate(*asked, vectors_of_map(data, ranker, OracleRefiner(data.cells, queries.positions_m)), tmp_path)
-    plain = evaluate(*asked, vectors_of_map(data, ranker))
+def test_a_refiner_that_knows_the_truth_scores_one(data_and_queries, ranker, tmp_path) -> None:
+    data, queries = data_and_queries
+    report = evaluate(
+        *data_and_queries, vectors_of_map(data, ranker, OracleRefiner(data.cells, queries.positions_m)), tmp_path
+    )
+    plain = evaluate(*data_and_queries, vectors_of_map(data, ranker))
     assert {v for row in report["localization"].values() for v in row.values()} == {1.0}
     assert report["method"] == "regressor"
     assert (report["model"], report["model_fingerprint"]) == ("oracle", "told")
@@ -62,8 +66,8 @@ def test_a_refiner_that_knows_the_truth_scores_one(asked, ranker, tmp_path) -> N
     assert "retrieved cell's centre" in (tmp_path / "report.md").read_text()
 
 
-def test_refined_positions_are_saved_and_lie_in_their_cells(asked, ranker, regressor, tmp_path) -> None:
-    data, queries = asked
+def test_refined_positions_are_saved_and_lie_in_their_cells(data_and_queries, ranker, regressor, tmp_path) -> None:
+    data, queries = data_and_queries
     part = dataclasses.replace(queries.take(np.arange(9)), hints=None)
     evaluate(data, part, vectors_of_map(data, ranker, regressor), tmp_path)
     saved = Predictions.load(tmp_path / PREDICTIONS_FILE)
@@ -98,12 +102,14 @@ def test_a_query_may_ask_for_positions_inside_the_cells(localizer, regressor) ->
 
 def test_uncertainty_is_that_of_what_made_the_estimate(localizer) -> None:
     center = localizer.gallery.cells.center_m[:, :2]
-    told = OracleRefiner(localizer.gallery.cells, center[:1] + 4)
+    oracle = OracleRefiner(localizer.gallery.cells, center[:1] + 4)
     # One cell alone is surely the right one.
     sure = Query(TEXT, 1, within=Circle(tuple(center[0]), 1.0), refine="none")
-    plain, refined = refining(localizer, lambda _: told).localize([sure, dataclasses.replace(sure, refine="regressor")])
+    plain, refined = refining(localizer, lambda _: oracle).localize(
+        [sure, dataclasses.replace(sure, refine="regressor")]
+    )
     assert refined.estimate.position == pytest.approx(tuple(center[0] + 4))
-    assert np.diag(refined.estimate.covariance) == pytest.approx(told.error_m**2)
+    assert np.diag(refined.estimate.covariance) == pytest.approx(oracle.error_m**2)
     assert np.diag(plain.estimate.covariance) == pytest.approx(localizer.manifest.grid_m**2 / 12)
     assert refined.estimate.radius_m.p90 < plain.estimate.radius_m.p90
 

@@ -15,9 +15,9 @@ ALL = [
 ]
 
 
-@pytest.mark.parametrize("asked", ALL)
-def test_an_id_says_all(asked):
-    assert QuestionSpec.parse(asked.id) == asked
+@pytest.mark.parametrize("spec", ALL)
+def test_an_id_says_all(spec):
+    assert QuestionSpec.parse(spec.id) == spec
 
 
 @pytest.mark.parametrize(
@@ -33,7 +33,7 @@ def test_what_is_no_id(wrong):
 
 
 def test_questions_in_words():
-    texts = [asked.question().text for asked in ALL]
+    texts = [spec.question().text for spec in ALL]
     assert texts == [
         "Is there a tree within about 10 metres of you?",
         "In which direction is the nearest street lamp?",
@@ -45,14 +45,14 @@ def test_questions_in_words():
     ]
 
 
-@pytest.mark.parametrize("asked", ALL)
-def test_choices_are_the_values_and_unknown(asked):
-    question = asked.question()
-    assert question.id == asked.id
-    assert [choice.value for choice in question.choices] == [*asked.values, UNKNOWN]
+@pytest.mark.parametrize("spec", ALL)
+def test_choices_are_the_values_and_unknown(spec):
+    question = spec.question()
+    assert question.id == spec.id
+    assert [choice.value for choice in question.choices] == [*spec.values, UNKNOWN]
     assert len({choice.text for choice in question.choices}) == len(question.choices)
-    assert (OTHER in asked.values) == (asked.kind == "colour")
-    assert question.is_open == (asked.kind in OPEN_QUESTIONS)
+    assert (OTHER in spec.values) == (spec.kind == "colour")
+    assert question.is_open == (spec.kind in OPEN_QUESTIONS)
 
 
 def test_an_open_question_offers_names():

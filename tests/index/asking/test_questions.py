@@ -38,7 +38,7 @@ def posterior(localizer):
 
 
 @pytest.fixture(scope="module")
-def asked(posterior):
+def questions_asked(posterior):
     [finding] = posterior.find([VAGUE])
     return finding.question
 
@@ -53,9 +53,9 @@ def asked(posterior):
 )
 def test_the_chances_of_all_answers_add_up_to_one_everywhere(posterior, one):
     nodes = np.arange(posterior.surroundings.cell_starts[-1])
-    told = [posterior.questions.answered([Reply(one.id, value)]) for value in one.values]
-    assert sum(np.exp(some.at(nodes)) for some in told) == pytest.approx(np.ones(len(nodes)))
-    assert sum(np.exp(some.cells) for some in told) == pytest.approx(np.ones(len(posterior.gallery.cells)))
+    evidence = [posterior.questions.answered([Reply(one.id, value)]) for value in one.values]
+    assert sum(np.exp(each.at(nodes)) for each in evidence) == pytest.approx(np.ones(len(nodes)))
+    assert sum(np.exp(each.cells) for each in evidence) == pytest.approx(np.ones(len(posterior.gallery.cells)))
 
 
 def test_an_answer_is_true_where_the_map_says_so(posterior):
@@ -68,10 +68,10 @@ def test_an_answer_is_true_where_the_map_says_so(posterior):
 
 
 def test_the_chances_of_all_names_add_up_to_one_where_there_is_a_street(posterior):
-    told = [posterior.questions.answered([Reply("street", f"East Street {n}")]).cells for n in range(6)]
-    told += [posterior.questions.answered([Reply("street", f"North Path {n}")]).cells for n in range(6)]
+    evidence = [posterior.questions.answered([Reply("street", f"East Street {n}")]).cells for n in range(6)]
+    evidence += [posterior.questions.answered([Reply("street", f"North Path {n}")]).cells for n in range(6)]
     assert len(posterior.questions.answered([Reply("street", "East Street 1")]).cells) == len(posterior.gallery.cells)
-    chance = np.exp(told).sum(axis=0)
+    chance = np.exp(evidence).sum(axis=0)
     assert chance.max() == pytest.approx(1.0, abs=1e-3)  # to half precision
     assert np.median(chance) > 0.9
 
@@ -83,17 +83,17 @@ def test_a_name_is_compared_without_case_and_accents(posterior):
 
 
 def test_an_open_reply_narrows_and_a_wrong_one_is_survived(posterior):
-    [plain], [told] = (
+    [plain], [evidence] = (
         posterior.find([q]) for q in (VAGUE, replace(VAGUE, replies=(Reply("street", "East Street 3"),)))
     )
     cells = len(posterior.gallery.cells)
-    assert entropy_of(told.located, cells) < entropy_of(plain.located, cells) - 1.0
+    assert entropy_of(evidence.located, cells) < entropy_of(plain.located, cells) - 1.0
     on_third = posterior.frame.from_wgs84(LAT + 180 * LAT_M, LON)[1]
-    assert abs(told.located.positions[0][1] - on_third) < 30
-    before, after = mass_of_cells(plain.located), mass_of_cells(told.located)
+    assert abs(evidence.located.positions[0][1] - on_third) < 30
+    before, after = mass_of_cells(plain.located), mass_of_cells(evidence.located)
     shared = [row for row in before if row in after and before[row] > 1e-4]
     assert min(after[row] / before[row] for row in shared) > 0.001  # nothing is ruled out
-    assert told.question is None or told.question.id != "street"
+    assert evidence.question is None or evidence.question.id != "street"
 
 
 def test_several_answers_multiply(posterior):
@@ -123,9 +123,9 @@ def test_the_question_leaves_the_least_entropy_of_all_that_could_be_asked(poster
         return np.array([weight[cell_of[located.points] == row].sum() for row in located.rows])
 
     def left(one):
-        told = [questions.answered([Reply(one.id, value)]).at(located.points) for value in one.values]
+        evidence = [questions.answered([Reply(one.id, value)]).at(located.points) for value in one.values]
         before = mass(located.weight)
-        chance = np.stack([mass(located.weight * np.exp(log_p)) for log_p in told], axis=1)
+        chance = np.stack([mass(located.weight * np.exp(log_p)) for log_p in evidence], axis=1)
         return expected_entropy(before / before.sum(), (chance / before[:, None].clip(1e-300))[None])[0]
 
     others = [QuestionSpec("near", ("bench",)), QuestionSpec("near", ("bollard",)), QuestionSpec("near", ("post box",))]
@@ -138,51 +138,51 @@ def test_a_house_number_is_asked_for_where_a_word_would_tell_too_little(posterio
     """A reply of a word is preferred as long as it leaves no bit more."""
     numbered = with_house_numbers(posterior)
     everywhere = np.zeros(len(posterior.gallery.cells))
-    asked = numbered.ask_anywhere(everywhere, KnownFacts(), [])
-    assert asked.id == "address"
-    assert [choice.value for choice in asked.choices][-1] == "unknown"
-    told = numbered.answered([Reply("address", "17, east street 3")])
-    assert told.cells.argmax() == 16
-    two = np.where(np.isin(np.arange(len(everywhere)), told.cells.argsort()[[0, -1]]), 0.0, -np.inf)
+    questions_asked = numbered.ask_anywhere(everywhere, KnownFacts(), [])
+    assert questions_asked.id == "address"
+    assert [choice.value for choice in questions_asked.choices][-1] == "unknown"
+    evidence = numbered.answered([Reply("address", "17, east street 3")])
+    assert evidence.cells.argmax() == 16
+    two = np.where(np.isin(np.arange(len(everywhere)), evidence.cells.argsort()[[0, -1]]), 0.0, -np.inf)
     assert numbered.ask_anywhere(two, KnownFacts(), []).id != "address"
-    said = [Reply("address", "17 East Street 3")]
-    assert numbered.ask_anywhere(everywhere, KnownFacts(), said).id not in {"address", "street"}
+    given_replies = [Reply("address", "17 East Street 3")]
+    assert numbered.ask_anywhere(everywhere, KnownFacts(), given_replies).id not in {"address", "street"}
 
 
 def with_house_numbers(posterior):
     """The questions about the map if a house stood in the middle of each of its cells, numbered from 1."""
     sights, gazetteer = posterior.nodes.sights, posterior.places.gazetteer
-    at = posterior.gallery.cells.center_m[:, :2]
-    houses = [GazetteerObject((ADDRESS_KIND,), (), str(n + 1), "East Street 3") for n in range(len(at))]
+    centers_m = posterior.gallery.cells.center_m[:, :2]
+    houses = [GazetteerObject((ADDRESS_KIND,), (), str(n + 1), "East Street 3") for n in range(len(centers_m))]
     builder = ObjectTableBuilder()
     builder.add([*gazetteer.objects, *houses])
     town = replace(
         gazetteer,
         objects=builder.build(),
-        segments_m=np.concatenate([gazetteer.segments_m, np.tile(at, 2).astype(np.float32)]),
-        starts=np.concatenate([gazetteer.starts, gazetteer.starts[-1] + 1 + np.arange(len(at))]),
-        is_area=np.concatenate([gazetteer.is_area, np.zeros(len(at), bool)]),
+        segments_m=np.concatenate([gazetteer.segments_m, np.tile(centers_m, 2).astype(np.float32)]),
+        starts=np.concatenate([gazetteer.starts, gazetteer.starts[-1] + 1 + np.arange(len(centers_m))]),
+        is_area=np.concatenate([gazetteer.is_area, np.zeros(len(centers_m), bool)]),
     )
     return Questions(sights, list(posterior.labels), posterior.nodes._palette, town, posterior.gallery.cells)
 
 
-def test_what_the_text_says_is_not_asked(posterior, asked):
-    assert not asked.id.startswith(("near:tree", "way:tree"))
+def test_what_the_text_says_is_not_asked(posterior, questions_asked):
+    assert not questions_asked.id.startswith(("near:tree", "way:tree"))
     for text in ("I am on East Street 2.", "I am on East Street 2. There is a bench."):
         [finding] = posterior.find([Query(text)])
         assert finding.question is None or finding.question.id != "street"
-    heard = KnownFacts(labels=frozenset(["bench"]), has_winds=False)
+    facts = KnownFacts(labels=frozenset(["bench"]), has_winds=False)
     [finding] = posterior.find([VAGUE])
-    found, before = [], []
-    while question := posterior.questions.ask(finding.located, heard, before):
-        found.append(question.id)
+    ids, before = [], []
+    while question := posterior.questions.ask(finding.located, facts, before):
+        ids.append(question.id)
         before.append(Reply(question.id, "unknown"))
-    assert len(found) == len(set(found)) > 3
-    assert "near:bench" not in found
-    assert not any(one.startswith("way:") for one in found)
-    assert found.count("street") == 1
-    assert "corner" not in found  # of a street that is not known
-    assert "name" not in found  # nothing has one here
+    assert len(ids) == len(set(ids)) > 3
+    assert "near:bench" not in ids
+    assert not any(one.startswith("way:") for one in ids)
+    assert ids.count("street") == 1
+    assert "corner" not in ids  # of a street that is not known
+    assert "name" not in ids  # nothing has one here
 
 
 def test_who_has_given_all_replies_that_are_taken_is_asked_nothing_more(posterior):
@@ -193,8 +193,8 @@ def test_who_has_given_all_replies_that_are_taken_is_asked_nothing_more(posterio
 
 
 def test_the_cross_street_is_asked_for_when_the_street_is_known():
-    def open_of(heard, *replies):
-        return [one.kind for one in heard.open_questions(replies)]
+    def open_of(facts, *replies):
+        return [one.kind for one in facts.open_questions(replies)]
 
     assert open_of(KnownFacts()) == ["street", "name", "address"]
     assert open_of(KnownFacts(), Reply("street", "unknown")) == ["name", "address"]
@@ -205,21 +205,23 @@ def test_the_cross_street_is_asked_for_when_the_street_is_known():
     assert open_of(KnownFacts(), Reply("address", "unknown")) == ["street", "name"]
 
 
-def test_an_answer_narrows_and_a_wrong_one_is_survived(posterior, asked):
+def test_an_answer_narrows_and_a_wrong_one_is_survived(posterior, questions_asked):
     entropy = []
-    for choice in asked.choices:
-        [finding] = posterior.find([replace(VAGUE, replies=(Reply(asked.id, choice.value),))])
+    for choice in questions_asked.choices:
+        [finding] = posterior.find([replace(VAGUE, replies=(Reply(questions_asked.id, choice.value),))])
         entropy.append(entropy_of(finding.located, len(posterior.gallery.cells)))
     assert np.mean(entropy[:-1]) < entropy[-1] - 0.1  # the last is unknown
     [plain] = posterior.find([VAGUE])
-    [wrong] = posterior.find([replace(VAGUE, replies=(Reply(asked.id, asked.choices[0].value),))])
+    [wrong] = posterior.find([replace(VAGUE, replies=(Reply(questions_asked.id, questions_asked.choices[0].value),))])
     before, after = mass_of_cells(plain.located), mass_of_cells(wrong.located)
     shared = [row for row in before if row in after and before[row] > 1e-4]
     assert min(after[row] / before[row] for row in shared) > 0.01  # nothing is ruled out
 
 
-def test_unknown_changes_nothing_but_the_question(posterior, asked):
-    [plain], [unsure] = (posterior.find([q]) for q in (VAGUE, replace(VAGUE, replies=(Reply(asked.id, "unknown"),))))
+def test_unknown_changes_nothing_but_the_question(posterior, questions_asked):
+    [plain], [unsure] = (
+        posterior.find([q]) for q in (VAGUE, replace(VAGUE, replies=(Reply(questions_asked.id, "unknown"),)))
+    )
     assert (plain.located.weight == unsure.located.weight).all()
     assert unsure.question != plain.question
 
@@ -288,14 +290,14 @@ def test_a_text_that_says_something_is_no_answer_of_replies_alone(localizer):
 
 
 def test_who_knows_nothing_is_asked_other_things_and_then_nothing(localizer):
-    query, found = SAYS_NOTHING, []
+    query, ids = SAYS_NOTHING, []
     while (answer := localizer.localize([query])[0]).question is not None:
         assert answer.status == "no_match"
-        found.append(answer.question.id)
+        ids.append(answer.question.id)
         query = replace(query, replies=(*query.replies, Reply(answer.question.id, "unknown")))
     assert answer.status == "no_match"
-    assert found[0] == "street"
-    assert len(found) == len(set(found)) == MAX_REPLIES
+    assert ids[0] == "street"
+    assert len(ids) == len(set(ids)) == MAX_REPLIES
 
 
 def test_what_is_offered_to_a_refused_text_is_where_it_may_have_been_said(localizer):

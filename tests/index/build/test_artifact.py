@@ -85,10 +85,10 @@ def test_a_broken_manifest_is_noticed(copy, text) -> None:
 def test_a_manifest_with_any_byte_changed_is_refused_by_name(copy) -> None:
     path = version_file(copy, "manifest.json")
     whole = path.read_bytes()
-    for at in range(len(whole)):
-        for changed in (whole[at] ^ 1, whole[at] ^ 0x20, ord("7")):
-            if changed != whole[at]:
-                path.write_bytes(whole[:at] + bytes([changed]) + whole[at + 1 :])
+    for length in range(len(whole)):
+        for changed in (whole[length] ^ 1, whole[length] ^ 0x20, ord("7")):
+            if changed != whole[length]:
+                path.write_bytes(whole[:length] + bytes([changed]) + whole[length + 1 :])
                 with pytest.raises(IndexBroken, match=r"manifest.json|has format"):
                     open_version(copy)
     path.write_bytes(whole)

@@ -12,7 +12,7 @@ import pytest
 from index.build.build import IndexJob
 from index.build.ray_shards import build_on_ray
 from models.errors import ClusterUnavailable, DataError, MapError
-from tests.index_facts import told
+from tests.index_facts import index_facts
 
 CLUSTER = """
 import ray
@@ -36,17 +36,17 @@ def cluster(monkeypatch):
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")  # Ray's own
 def test_two_workers_make_the_bytes_of_the_whole(cluster, deep_file, rich_dir, deep_index, tmp_path) -> None:
-    seen = []
+    calls = []
     job = IndexJob(deep_file, tmp_path / "out", rich_dir, levels=True)
-    build_on_ray(job, None, cluster, lambda *said: seen.append(said))
-    assert ("make shards", 1, 2) in seen
-    assert told(tmp_path / "out") == told(deep_index)
+    build_on_ray(job, None, cluster, lambda *call: calls.append(call))
+    assert ("make shards", 1, 2) in calls
+    assert index_facts(tmp_path / "out") == index_facts(deep_index)
 
 
-def fake_ray(monkeypatch, **said):
+def fake_ray(monkeypatch, **attributes):
     """A Ray that does what it is told to."""
     exceptions = SimpleNamespace(RayError=type("RayError", (Exception,), {}), RayTaskError=KeyError)
-    ray = SimpleNamespace(exceptions=exceptions, shutdown=lambda: None, init=lambda **_: None, **said)
+    ray = SimpleNamespace(exceptions=exceptions, shutdown=lambda: None, init=lambda **_: None, **attributes)
     monkeypatch.setitem(sys.modules, "ray", ray)
     return ray
 

@@ -20,7 +20,7 @@ from models.errors import DataError, IndexBroken
 from models.files import TEMP_PREFIX
 from models.paper import instance_encoder, level_table, retriever
 from models.posterior import statements
-from tests.index_facts import told
+from tests.index_facts import index_facts
 
 FIRST, SECOND = Shard.all(2)
 LEVELS = ("global", "instance", "relation")
@@ -42,16 +42,16 @@ def unread(monkeypatch):
 @pytest.fixture
 def given(job, monkeypatch):
     """The part of the second shard is gone; who makes it anew has it at once."""
-    kept = job.out_dir / "kept"
-    part_of(job, SECOND).rename(kept)
+    backup = job.out_dir / "kept"
+    part_of(job, SECOND).rename(backup)
     monkeypatch.setattr(
-        ShardData, "build", lambda _encoder, _likelihood, source, *_: ShardData.load(kept, LEVELS, source.data.cells)
+        ShardData, "build", lambda _encoder, _likelihood, source, *_: ShardData.load(backup, LEVELS, source.data.cells)
     )
 
 
 def part_of(job, shard):
-    [found] = job.out_dir.glob(f"{SHARDS_DIR}/*/{shard.name}")
-    return found
+    [part_path] = job.out_dir.glob(f"{SHARDS_DIR}/*/{shard.name}")
+    return part_path
 
 
 def rows_of(job, shard):
@@ -62,8 +62,8 @@ def test_shards_give_the_bytes_of_the_whole(deep_index, job) -> None:
     assert rows_of(job, FIRST) == [0, CELLS_PER_BLOCK]
     assert rows_of(job, SECOND)[1] > rows_of(job, SECOND)[0] == CELLS_PER_BLOCK
     version = job.merge(2)
-    whole = told(deep_index)
-    assert told(job.out_dir) == whole
+    whole = index_facts(deep_index)
+    assert index_facts(job.out_dir) == whole
     assert {path.name for path in version.iterdir()} == {*whole["files"], "manifest.json"}
     assert {"levels.instance.npy", "levels.relation.npy", "statements.safetensors"} <= whole["files"].keys()
     assert not (job.out_dir / SHARDS_DIR).exists()
@@ -90,8 +90,8 @@ def test_shards_of_a_scan_give_the_bytes_of_the_whole(streets, weights_dir, tmp_
         shared.make_shard(shard)
     assert all(first < last for first, last in (rows_of(shared, shard) for shard in Shard.all(count)))
     shared.merge(count)
-    assert "surroundings.safetensors" in told(tmp_path / "whole")["files"]
-    assert told(tmp_path / "shared") == told(tmp_path / "whole")
+    assert "surroundings.safetensors" in index_facts(tmp_path / "whole")["files"]
+    assert index_facts(tmp_path / "shared") == index_facts(tmp_path / "whole")
 
 
 def test_a_good_part_is_not_made_again_and_a_damaged_one_is(job, unread, monkeypatch) -> None:

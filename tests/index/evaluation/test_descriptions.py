@@ -33,17 +33,19 @@ def test_positions_lie_in_the_squares_of_different_cells(localizer) -> None:
 
 def test_where_nothing_can_be_said_nothing_is_found(localizer) -> None:
     off_the_map = (-400.0, 0.0)
-    found = localize_descriptions(localizer, np.array([off_the_map, (60.0, 61.0), off_the_map]), lambda *_: None)
-    assert found.words.tolist()[::2] == [0, 0]
-    assert np.isinf(found.error_m).tolist() == [True, False, True]
-    assert not (found.is_ok | found.is_held)[::2].any()
-    assert found.words[1] > 10
+    figures = localize_descriptions(localizer, np.array([off_the_map, (60.0, 61.0), off_the_map]), lambda *_: None)
+    assert figures.words.tolist()[::2] == [0, 0]
+    assert np.isinf(figures.error_m).tolist() == [True, False, True]
+    assert not (figures.is_ok | figures.is_held)[::2].any()
+    assert figures.words[1] > 10
 
 
 def test_what_is_found_in_another_scene_is_not_found_though_a_circle_holds_it() -> None:
-    at = (3.0, 4.0)
-    estimate = Estimate(at, "posterior", ((1.0, 0.0), (0.0, 1.0)), Radius(1.0, 2.0), 0.9, None)
-    candidates = tuple(Candidate(1, cell, 1.0, 0.9, (*at, 0.0), (0.0, 0.0, 9.0, 9.0), at, None) for cell in ("a", "b"))
+    position = (3.0, 4.0)
+    estimate = Estimate(position, "posterior", ((1.0, 0.0), (0.0, 1.0)), Radius(1.0, 2.0), 0.9, None)
+    candidates = tuple(
+        Candidate(1, cell, 1.0, 0.9, (*position, 0.0), (0.0, 0.0, 9.0, 9.0), position, None) for cell in ("a", "b")
+    )
     answers = [Answer("ok", ModelName("m", ""), estimate, (candidate,)) for candidate in candidates]
     answers.append(Answer("no_match", ModelName("m", "")))
     localizer = SimpleNamespace(
@@ -51,8 +53,8 @@ def test_what_is_found_in_another_scene_is_not_found_though_a_circle_holds_it() 
         describe=lambda _: SimpleNamespace(description="I am here.", cell_id="a"),
         localize=lambda _: answers,
     )
-    found = localize_descriptions(localizer, np.array([at, at, at]), lambda *_: None)
-    assert found.error_m.tolist() == [0.0, np.inf, np.inf]
-    assert found.is_held.tolist() == [True, True, False]
-    assert found.is_ok.tolist() == [True, True, False]
-    assert found.words.tolist() == [3, 3, 3]
+    figures = localize_descriptions(localizer, np.array([position, position, position]), lambda *_: None)
+    assert figures.error_m.tolist() == [0.0, np.inf, np.inf]
+    assert figures.is_held.tolist() == [True, True, False]
+    assert figures.is_ok.tolist() == [True, True, False]
+    assert figures.words.tolist() == [3, 3, 3]

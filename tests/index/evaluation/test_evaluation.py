@@ -18,15 +18,15 @@ from models.sources.source import open_source
 
 
 @pytest.fixture(scope="module")
-def vectors(asked, model):
-    data = asked[0]
+def vectors(data_and_queries, model):
+    data = data_and_queries[0]
     return vectors_of_map(data, Ranker.from_cells(model, data.cells, data.gallery.labels))
 
 
 @pytest.fixture(scope="module")
-def run_dir(asked, vectors, tmp_path_factory):
+def run_dir(data_and_queries, vectors, tmp_path_factory):
     directory = tmp_path_factory.mktemp("report")
-    evaluate(*asked, vectors, directory, [60, 120])
+    evaluate(*data_and_queries, vectors, directory, [60, 120])
     return directory
 
 
@@ -35,11 +35,11 @@ def report(run_dir):
     return json.loads((run_dir / "report.json").read_text())
 
 
-def test_the_report_has_the_fixed_names(report, asked) -> None:
+def test_the_report_has_the_fixed_names(report, data_and_queries) -> None:
     assert set(report["retrieval"]) == {"1", "3", "5"}
     assert set(report["localization"]) == {"1", "5", "10"}
     assert all(set(row) == {"5", "10", "15"} for row in report["localization"].values())
-    data, queries = asked
+    data, queries = data_and_queries
     assert (report["cells"], report["queries"]) == (len(data.cells), len(queries))
     assert report["cells"] > 400
     assert report["queries"] > 300
@@ -62,16 +62,16 @@ def test_strategies_make_up_the_whole(report) -> None:
     assert total / report["queries"] == pytest.approx(report["retrieval"]["3"])
 
 
-def test_chance_is_what_random_candidates_reach(report, asked) -> None:
-    data, queries = asked
+def test_chance_is_what_random_candidates_reach(report, data_and_queries) -> None:
+    data, queries = data_and_queries
     rng = np.random.default_rng(0)
     drawn = rng.integers(len(data.cells), size=(10, len(queries), 5))
     errors = np.linalg.norm(data.cells.center_m[drawn, :2] - queries.positions_m[:, None], axis=-1).min(axis=-1)
     assert report["chance"]["localization"]["5"]["15"] == pytest.approx(np.mean(errors <= 15), abs=0.01)
 
 
-def test_it_is_the_same_twice_and_when_scored_again(run_dir, report, asked, vectors) -> None:
-    assert evaluate(*asked, vectors, None, [120, 60]) == report
+def test_it_is_the_same_twice_and_when_scored_again(run_dir, report, data_and_queries, vectors) -> None:
+    assert evaluate(*data_and_queries, vectors, None, [120, 60]) == report
     written = (run_dir / "report.json").read_bytes()
     assert rescore(run_dir) == report
     assert (run_dir / "report.json").read_bytes() == written
@@ -85,8 +85,8 @@ def test_tables_and_plots_are_written(run_dir, report) -> None:
         assert f"({name}.png)" in page
 
 
-def test_a_growing_gallery_asks_the_same_queries(report, asked) -> None:
-    data, queries = asked
+def test_a_growing_gallery_asks_the_same_queries(report, data_and_queries) -> None:
+    data, queries = data_and_queries
     first, second = report["growth"]
     assert first["queries"] == second["queries"] > 10
     assert first["cells"] < second["cells"] < len(data.cells)
@@ -94,14 +94,15 @@ def test_a_growing_gallery_asks_the_same_queries(report, asked) -> None:
     (radius, (small, part), rows), _ = grow_gallery(data, queries, [120, 60])
     assert radius == 60
     assert [small.cells.ids[n] for n in part.truth] == [
-        data.cells.ids[queries.truth[list(queries.sentences).index(said)]] for said in part.sentences
+        data.cells.ids[queries.truth[list(queries.sentences).index(query_sentences)]]
+        for query_sentences in part.sentences
     ]
     assert [data.cells.ids[n] for n in rows] == list(small.cells.ids)
 
 
 @pytest.mark.parametrize(("radii", "message"), [([0], "not a valid radius"), ([1e-6], "larger radius")])
-def test_radii_that_hold_nothing_are_refused(asked, radii, message) -> None:
-    data, queries = asked
+def test_radii_that_hold_nothing_are_refused(data_and_queries, radii, message) -> None:
+    data, queries = data_and_queries
     shifted = replace(queries, positions_m=queries.positions_m + 3.3)
     with pytest.raises(DataError, match=message):
         grow_gallery(data, shifted, radii)
@@ -116,14 +117,14 @@ def test_another_scene_is_never_a_hit(run_dir) -> None:
     assert score(everywhere)["coverage"]["p90"]["true"] == 1.0, "a circle round the whole map holds every scene"
 
 
-def test_a_query_far_from_every_cell_is_asked_and_missed(asked, vectors) -> None:
-    data, queries = asked
+def test_a_query_far_from_every_cell_is_asked_and_missed(data_and_queries, vectors) -> None:
+    data, queries = data_and_queries
     positions = queries.positions_m[:2] + np.array([[0, 0], [1e4, 0]])
     own = Queries.from_text(queries.sentences[:2], positions, data.cells)
     assert own.truth.tolist() == [queries.truth[0], -1]
-    found = evaluate(data, own, vectors)
-    assert found["queries_without_cell"] == 1
-    assert max(found["retrieval"]["5"], found["localization"]["10"]["15"]) <= 0.5
+    figures = evaluate(data, own, vectors)
+    assert figures["queries_without_cell"] == 1
+    assert max(figures["retrieval"]["5"], figures["localization"]["10"]["15"]) <= 0.5
 
 
 def test_broken_predictions_are_refused(run_dir, tmp_path) -> None:
@@ -156,11 +157,11 @@ def test_exact_matching_against_a_naive_count(osm_file) -> None:
         for n in range(len(data.cells))
     ]
     ranks = []
-    for said, truth in zip(hints, truths, strict=True):
-        fits = [sum((h.label, h.colour, h.direction) in true for h in said) for true in true_at]
+    for query_sentences, truth in zip(hints, truths, strict=True):
+        fits = [sum((h.label, h.colour, h.direction) in true for h in query_sentences) for true in true_at]
         better, equal = sum(f > fits[truth] for f in fits), sum(f == fits[truth] for f in fits)
         ranks.append((better, equal))
-    found = ambiguity(data, replace(queries, truth=truths), hints)
-    assert found["median_cells_that_fit_as_well"] == np.median([b + e for b, e in ranks])
+    figures = ambiguity(data, replace(queries, truth=truths), hints)
+    assert figures["median_cells_that_fit_as_well"] == np.median([b + e for b, e in ranks])
     for k in (1, 3, 5):
-        assert found["exact_matching"][k] == pytest.approx(np.mean([min(1, max(0, (k - b) / e)) for b, e in ranks]))
+        assert figures["exact_matching"][k] == pytest.approx(np.mean([min(1, max(0, (k - b) / e)) for b, e in ranks]))

@@ -6,10 +6,10 @@ from models.errors import DataError
 from models.sources.source import open_source
 
 
-def test_vague_texts_have_two_hints(asked) -> None:
+def test_vague_texts_have_two_hints(data_and_queries) -> None:
     rng = np.random.default_rng(0)
-    [template] = vague_texts(asked[1], [0], rng, is_plain=False)
-    [plain] = vague_texts(asked[1], [0], rng, is_plain=True)
+    [template] = vague_texts(data_and_queries[1], [0], rng, is_plain=False)
+    [plain] = vague_texts(data_and_queries[1], [0], rng, is_plain=True)
     assert template.count("The pose is") == 2
     assert plain.startswith("There is a ")
     assert not any(wind in plain for wind in ("north", "east", "south", "west"))

@@ -23,29 +23,29 @@ HINTS = tuple(
 )  # fmt: skip
 
 
-def test_trials_say_what_their_name_says(asked):
-    trials = {trial.name: trial for trial in all_trials(asked[0])}
+def test_trials_say_what_their_name_says(data_and_queries):
+    trials = {trial.name: trial for trial in all_trials(data_and_queries[0])}
     plain = trials["template text"].say(HINTS, np.random.default_rng(0))
     assert plain[0] == "The pose is north of a green bench."
-    said = {name: trial.say(HINTS, np.random.default_rng(1)) for name, trial in trials.items()}
-    assert [len(said[f"{n} hints"]) for n in range(1, 6)] == [1, 2, 3, 4, 5]
-    assert len(set(said["one hint of six wrong"]) - set(plain)) == 1
-    assert len(set(said["two colours of six wrong"]) - set(plain)) == 2
-    assert sorted(said["hints in another order"]) == sorted(plain)
-    assert said["inverse phrasing"][0] == "There is a green bench south of me."
-    free = " ".join(said["free wording, unseen grammar"])
-    assert free not in (" ".join(plain), " ".join(said["free wording, three typos"]))
+    damaged = {name: trial.say(HINTS, np.random.default_rng(1)) for name, trial in trials.items()}
+    assert [len(damaged[f"{n} hints"]) for n in range(1, 6)] == [1, 2, 3, 4, 5]
+    assert len(set(damaged["one hint of six wrong"]) - set(plain)) == 1
+    assert len(set(damaged["two colours of six wrong"]) - set(plain)) == 2
+    assert sorted(damaged["hints in another order"]) == sorted(plain)
+    assert damaged["inverse phrasing"][0] == "There is a green bench south of me."
+    free = " ".join(damaged["free wording, unseen grammar"])
+    assert free not in (" ".join(plain), " ".join(damaged["free wording, three typos"]))
 
 
-def test_hints_about_the_nearest_things_are_true(source, asked):
-    data, queries = asked
-    some = queries.take(np.arange(0, len(queries), 3))
+def test_hints_about_the_nearest_things_are_true(source, data_and_queries):
+    data, queries = data_and_queries
+    subset = queries.take(np.arange(0, len(queries), 3))
     around = build_neighbour_index(source.geometry(), data.cells)
-    told = nearest_hints(data, some.positions_m, some.truth, around, 12)
-    assert 6 < max(map(len, told)) <= 12
+    nearest = nearest_hints(data, subset.positions_m, subset.truth, around, 12)
+    assert 6 < max(map(len, nearest)) <= 12
     shared = [
         len({(h.label, h.direction) for h in own} & {(h.label, h.direction) for h in hints[:8]}) / len(own)
-        for hints, own, strategy in zip(told, some.hints, some.strategies, strict=True)
+        for hints, own, strategy in zip(nearest, subset.hints, subset.strategies, strict=True)
         if strategy == "closest"
     ]
     assert shared
@@ -53,37 +53,37 @@ def test_hints_about_the_nearest_things_are_true(source, asked):
 
 
 @pytest.mark.slow
-def test_retriever_and_posterior_stand_side_by_side(source, asked, model, text_encoder):
+def test_retriever_and_posterior_stand_side_by_side(source, data_and_queries, model, text_encoder):
     torch.manual_seed(0)
-    data, queries = asked
+    data, queries = data_and_queries
     rows = np.arange(0, len(queries), max(1, len(queries) // 3))
-    some = queries.take(rows)
+    subset = queries.take(rows)
     ranker = Ranker.from_cells(model, data.cells, data.gallery.labels)
     untrained = PosteriorModel(text_encoder, PosteriorConfig(width=32)).eval()
     untrained.matcher = load_posterior().matcher  # knows the names already
     posterior = posterior_of_map(untrained, data, ranker, build_neighbour_index(source.geometry(), data.cells))
     vectors = vectors_of_map(data, ranker)
-    found = robustness(data, some, vectors, posterior, lambda *_: None)
-    (head, table), *of_candidates = robustness_tables(found)
+    figures = robustness(data, subset, vectors, posterior, lambda *_: None)
+    (head, table), *of_candidates = robustness_tables(figures)
     assert len(table) == len(all_trials(data))
     assert all(len(row) == len(head) for row in table)
-    for row in found["trials"]:
+    for row in figures["trials"]:
         assert 0 <= row["posterior"]["retrieval"]["1"] <= 1
     names = [head[0].split(":")[0] for head, _ in of_candidates]
-    assert names == list(found["candidates"]) == ["template text", "free wording, unseen grammar"]
+    assert names == list(figures["candidates"]) == ["template text", "free wording, unseen grammar"]
     assert all(len(rows) == len(SOURCES) for _, rows in of_candidates)
     raw, _, by_list, both = (
-        [row["recall"][str(n)] for n in CANDIDATE_COUNTS] for row in candidate_recall(some, posterior)
+        [row["recall"][str(n)] for n in CANDIDATE_COUNTS] for row in candidate_recall(subset, posterior)
     )
     assert all(b >= o for b, o in zip(both, by_list, strict=True)), "both hold what one holds"
-    first = [ranker.search([ranker.retriever.encode_description(s)], 10)[1][0] for s in some.sentences]
-    assert raw[0] == pytest.approx(np.mean([t in r for t, r in zip(some.truth, first, strict=True)]))
+    first = [ranker.search([ranker.retriever.encode_description(s)], 10)[1][0] for s in subset.sentences]
+    assert raw[0] == pytest.approx(np.mean([t in r for t, r in zip(subset.truth, first, strict=True)]))
     with pytest.raises(DataError, match="the hints behind the texts"):
-        robustness(data, replace(some, hints=None), vectors, posterior, lambda *_: None)
+        robustness(data, replace(subset, hints=None), vectors, posterior, lambda *_: None)
 
 
-def test_points_of_a_damaged_map_are_those_of_the_parts_that_are_left(asked) -> None:
-    data = asked[0]
+def test_points_of_a_damaged_map_are_those_of_the_parts_that_are_left(data_and_queries) -> None:
+    data = data_and_queries[0]
     damage = _damage_map(data, Trial("gone", lambda hints, _rng: (), dropped=0.3), np.random.default_rng(0))
     before, after = data.gallery.cells, damage.data.gallery.cells
     chosen = np.array([3, 0])

@@ -50,12 +50,12 @@ def test_calibration_of_honest_and_of_vain_probabilities() -> None:
     rng = np.random.default_rng(0)
     honest = rng.random(5000)
     hit = rng.random(5000) < honest
-    found = calibration(honest, hit)
-    assert found["expected_calibration_error"] < 0.03
-    assert sum(b["queries"] for b in found["bins"]) == 5000
+    figures = calibration(honest, hit)
+    assert figures["expected_calibration_error"] < 0.03
+    assert sum(b["queries"] for b in figures["bins"]) == 5000
     vain = calibration(np.minimum(1, honest + 0.4), hit)
     assert vain["expected_calibration_error"] > 0.2
-    assert vain["mean_probability"] > found["mean_probability"]
+    assert vain["mean_probability"] > figures["mean_probability"]
 
 
 def test_no_answer_to_a_query_without_a_cell_is_no_hit() -> None:
@@ -74,6 +74,6 @@ def test_places_say_where_each_query_was_put_or_that_it_was_put_nowhere() -> Non
     assert places["truth"] == predictions.positions_m.tolist()
     other = predictions.cell_scenes[predictions.ranked[:, 0]] != predictions.scenes
     assert 0 < other.sum() < 50
-    assert [at is None for at in places["estimate"]] == other.tolist()
+    assert [estimate is None for estimate in places["estimate"]] == other.tolist()
     error = [np.hypot(*np.subtract(a, b)) for a, b in zip(places["truth"], places["estimate"], strict=True) if b]
     assert error == pytest.approx(predictions.errors_m()[~other, 0])

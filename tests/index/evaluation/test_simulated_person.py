@@ -25,10 +25,10 @@ def sure(truth, monkeypatch):
 
 
 @pytest.mark.parametrize("label", LABELS)
-def test_the_truth_is_that_of_the_map(truth, city, asked, sure, label) -> None:
+def test_the_truth_is_that_of_the_map(truth, city, data_and_queries, sure, label) -> None:
     pieces = city.pieces
     of_class = np.flatnonzero([city.instances[i].label == label for i in pieces.instance])
-    for position in asked[1].positions_m[:40:8]:
+    for position in data_and_queries[1].positions_m[:40:8]:
         lines = shapely.shortest_line(shapely.Point(position), pieces.geometry(of_class))
         nearest = int(shapely.length(lines).argmin())
         east, north = np.diff(shapely.get_coordinates(lines[nearest]), axis=0)[0]
@@ -43,9 +43,13 @@ def test_the_truth_is_that_of_the_map(truth, city, asked, sure, label) -> None:
         assert bearing == pytest.approx(np.degrees(np.arctan2(east, north)), abs=0.5)
 
 
-def test_people_name_the_street_they_are_on(truth, asked, sure) -> None:
-    near = [(truth.streets(position, 40.0), position) for position in asked[1].positions_m[:60]]
-    position, name = next((at, some[0][1]) for some, at in near if len(some) == 1 or some[1][0] > some[0][0] + 5)
+def test_people_name_the_street_they_are_on(truth, data_and_queries, sure) -> None:
+    near = [(truth.streets(position, 40.0), position) for position in data_and_queries[1].positions_m[:60]]
+    position, name = next(
+        (point, near_streets[0][1])
+        for near_streets, point in near
+        if len(near_streets) == 1 or near_streets[1][0] > near_streets[0][0] + 5
+    )
     assert sure(position).reply(QuestionSpec("street").question()).choice == name
 
 
@@ -60,9 +64,9 @@ def in_town(source, monkeypatch):
 
 def test_people_read_signs_that_are_near(in_town) -> None:
     question = QuestionSpec("name").question()
-    said = [in_town(60.0, 90.0, seed).reply(question).choice for seed in range(300)]
-    assert set(said) == {"Кафе Пушкин", "北京饭店"}
-    assert np.mean([name == "Кафе Пушкин" for name in said]) == pytest.approx((1 / 7) / (1 / 7 + 1 / 27), abs=0.06)
+    choices = [in_town(60.0, 90.0, seed).reply(question).choice for seed in range(300)]
+    assert set(choices) == {"Кафе Пушкин", "北京饭店"}
+    assert np.mean([name == "Кафе Пушкин" for name in choices]) == pytest.approx((1 / 7) / (1 / 7 + 1 / 27), abs=0.06)
     assert in_town(60.0, 400.0).reply(question).choice == "unknown"
 
 
@@ -82,8 +86,8 @@ def test_people_read_the_number_that_seems_nearest(in_town, monkeypatch) -> None
     assert in_town(250.0, 76.0).reply(question).choice == "449 West 25th Street"
     assert in_town(60.0, 80.0).reply(question).choice == "unknown"
     monkeypatch.setattr(measured, "DISTANCE_LOG_SIGMA", 0.25)
-    said = [in_town(250.0, 82.0, seed).reply(question).choice for seed in range(300)]
-    assert 0.5 < np.mean([name == "450 West 25th Street" for name in said]) < 0.95  # 13 m away, the other 17
+    choices = [in_town(250.0, 82.0, seed).reply(question).choice for seed in range(300)]
+    assert 0.5 < np.mean([name == "450 West 25th Street" for name in choices]) < 0.95  # 13 m away, the other 17
 
 
 @pytest.mark.parametrize("kind", OPEN_QUESTIONS)
@@ -101,9 +105,9 @@ def test_a_wrong_name_is_another_of_the_map(in_town, monkeypatch, kind) -> None:
     assert len(names) >= 4
 
 
-def test_people_err_as_often_as_is_said(truth, asked) -> None:
-    away = [truth.nearest(0, position, "building")[0] for position in asked[1].positions_m]
-    position = asked[1].positions_m[int(np.argmax(away))]
+def test_people_err_as_often_as_is_said(truth, data_and_queries) -> None:
+    away = [truth.nearest(0, position, "building")[0] for position in data_and_queries[1].positions_m]
+    position = data_and_queries[1].positions_m[int(np.argmax(away))]
     assert max(away) > 20, "far enough that nobody takes it for ten metres"
     person = SimulatedPerson(truth, 0, position, np.random.default_rng(0))
     question = QuestionSpec("near", ("building",)).question()

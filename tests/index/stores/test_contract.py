@@ -89,9 +89,9 @@ def store(backend, vectors, positions_m):
     return backend.write("20261124T120000-v1", vectors, positions_m)
 
 
-def assert_best(found, exact, k):
+def assert_best(result, exact, k):
     """What was found are the k best of exact scores [Q, N]; those closer than the tolerance may change places."""
-    scores, rows = found
+    scores, rows = result
     assert scores.shape == rows.shape == (len(exact), k)
     assert (scores.dtype, rows.dtype) == (np.float32, np.int64)
     assert all(len(set(each)) == k for each in rows.tolist())
@@ -150,15 +150,15 @@ def test_equal_scores_come_by_row(backend, positions_m) -> None:
     store = backend.write("ties", same, positions_m[:40])
     expected = [[*(r for r in range(40) if r != 7), 7]]
     assert store.search(same[:1], 40)[1].tolist() == expected
-    some = store.search(same[:1], 5)[1][0].tolist()
-    assert some == sorted(some), "which of the equals is up to the store"
-    assert 7 not in some
+    best_rows = store.search(same[:1], 5)[1][0].tolist()
+    assert best_rows == sorted(best_rows), "which of the equals is up to the store"
+    assert 7 not in best_rows
 
 
 def test_opened_again_it_finds_the_same(backend, store, vectors, positions_m) -> None:
     again = backend.open("20261124T120000-v1", vectors, positions_m)
-    for found, known in zip(again.search(vectors[:3], 9), store.search(vectors[:3], 9), strict=True):
-        assert np.array_equal(found, known)
+    for result, known in zip(again.search(vectors[:3], 9), store.search(vectors[:3], 9), strict=True):
+        assert np.array_equal(result, known)
 
 
 def test_two_versions_side_by_side(backend, store, vectors, positions_m) -> None:
@@ -213,8 +213,8 @@ def test_the_alias_moves(in_milvus, vectors, positions_m) -> None:
     for version in ("first", "second"):
         store = in_milvus.write(version, vectors[:50], positions_m[:50])
         store.move_alias("default")
-        found = client.call("query", "hereabouts_default", filter="row == 3", output_fields=["version", "region", "x"])
-        assert [dict(each) for each in found] == [
+        result = client.call("query", "hereabouts_default", filter="row == 3", output_fields=["version", "region", "x"])
+        assert [dict(each) for each in result] == [
             {"row": 3, "version": version, "region": "town", "x": positions_m[3, 0]}
         ]
     client.call("drop_alias", "hereabouts_default")

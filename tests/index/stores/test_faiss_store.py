@@ -103,16 +103,16 @@ def test_however_many_vectors_are_looked_at_together_the_file_is_the_same(
 @pytest.mark.skipif(not Path("/proc").is_dir(), reason="only Linux tells what of a file is in memory")
 def test_of_vectors_in_a_file_none_stay_in_memory(vectors, in_lists, monkeypatch) -> None:
     monkeypatch.setattr(spool, "HELD", 1000)
-    kept = spooled([{"vectors": vectors}])["vectors"]
-    at = f"{kept.ctypes.data:x}-"
+    stored = spooled([{"vectors": vectors}])["vectors"]
+    address = f"{stored.ctypes.data:x}-"
 
     def in_memory_kb() -> int:
-        mapping = Path("/proc/self/smaps").read_text().partition(f"\n{at}")[2]
+        mapping = Path("/proc/self/smaps").read_text().partition(f"\n{address}")[2]
         return int(mapping.partition("\nRss:")[2].split()[0])
 
-    assert kept.sum() == pytest.approx(vectors.sum())
+    assert stored.sum() == pytest.approx(vectors.sum())
     assert in_memory_kb() > 500
-    FaissStore.from_vectors(kept)
+    FaissStore.from_vectors(stored)
     assert in_memory_kb() == 0
 
 

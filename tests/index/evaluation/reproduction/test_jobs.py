@@ -15,16 +15,16 @@ from models.training.experiments import TrainingRun, TrainingScale
 def test_rankings_are_of_one_model_by_each_way(text_encoder, osm_file) -> None:
     torch.manual_seed(1)
     retriever = Mncl(text_encoder, MnclConfig(width=32, level_weights=(1.0, 0.0, 0.0))).eval()
-    found = module._rankings(retriever, osm_file)
-    assert list(found) == [GLOBAL_ONLY, RERANKED, ALL_LEVELS, Z_SCORES]
-    assert found[GLOBAL_ONLY] == found[ALL_LEVELS], "the other levels weigh nothing"
-    assert found[Z_SCORES] != found[ALL_LEVELS]
+    rankings = module._rankings(retriever, osm_file)
+    assert list(rankings) == [GLOBAL_ONLY, RERANKED, ALL_LEVELS, Z_SCORES]
+    assert rankings[GLOBAL_ONLY] == rankings[ALL_LEVELS], "the other levels weigh nothing"
+    assert rankings[Z_SCORES] != rankings[ALL_LEVELS]
 
 
-def test_figure_3_is_drawn(asked, model, text_encoder, tmp_path) -> None:
+def test_figure_3_is_drawn(data_and_queries, model, text_encoder, tmp_path) -> None:
     torch.manual_seed(0)
     refiner = Regressor(text_encoder, RegressorConfig(width=32)).eval()
-    data, queries = asked
+    data, queries = data_and_queries
     draw_figure_3(data, queries, module._localizer(data, model, refiner=refiner), tmp_path / "figure3.png")
     assert (tmp_path / "figure3.png").stat().st_size > 50_000
 
@@ -35,9 +35,9 @@ def test_results_go_with_the_files_of_a_text_encoder(osm_file, tmp_path, method)
     (encoder / "pooling").mkdir(parents=True)
 
     def key() -> str:
-        said = (f"model.text_encoder={encoder}",)
+        settings = (f"model.text_encoder={encoder}",)
         return ReproductionJob.build(
-            TrainingRun(method), 0, osm_file, tmp_path / "out", TrainingScale(said, said, ())
+            TrainingRun(method), 0, osm_file, tmp_path / "out", TrainingScale(settings, settings, ())
         ).key
 
     keys = []

@@ -62,17 +62,17 @@ def test_what_is_done_is_kept_and_what_differs_is_made_again(small, strip_file, 
     def made(scale: TrainingScale) -> dict:
         return module.reproduce(strip_file, tmp_path, scale, [0], 1, lambda *_: None, ONE)
 
-    found = made(SCALE)
+    reproduction = made(SCALE)
     points = "inputs=points+colour+position+count"
     names = {"text2loc", "regressor", f"text2loc-{points}", f"regressor-{points}", POINTS}
-    assert found["runs"].keys() == names
-    result = found["runs"]["text2loc"][0]
+    assert reproduction["runs"].keys() == names
+    result = reproduction["runs"]["text2loc"][0]
     assert 0 <= result["retrieval"]["1"] <= result["retrieval"]["5"] <= 1
     assert result["training"]["seconds"] >= result["training"]["seconds_to_best"] > 0
     assert len(result["growth"]) == 2
     assert set(result["localization"]["regressor"]) == {"test", "val"}
     first = stamps(tmp_path)
-    assert made(SCALE) == found
+    assert made(SCALE) == reproduction
     assert stamps(tmp_path) == first
     longer = replace(SCALE, retriever=("training.steps=3", *SCALE.retriever[1:]))
     made(longer)
@@ -94,8 +94,8 @@ def test_further_seeds_make_the_tables_alone() -> None:
 def test_variants_differ_in_their_inputs_alone() -> None:
     runs = required_runs((TABLE_2,), every_seed=True)
     assert {run.name for run in runs} == {
-        f"{method}{said}" for method in ("mncl", "ret", "text2loc", "text2pos")
-        for said in ("", "-inputs=points+colour+position+count")
+        f"{method}{suffix}" for method in ("mncl", "ret", "text2loc", "text2pos")
+        for suffix in ("", "-inputs=points+colour+position+count")
     }  # fmt: skip
     assert sum(run.needs_points for run in runs) == 4
     assert (MNCL, HEAD) in fine_pairs((TABLE_1,))
@@ -142,11 +142,11 @@ def made_up(run: TrainingRun, seed: int) -> dict[str, object]:
         {"radius_m": r, "cells": 10 * (n + 1), "queries": 5, "R@1": at_1 / (n + 1)} for n, r in enumerate((80, 200))
     ]
     within = {k: {"5": at_1, "10": 0.8, "15": 0.9} for k in ("1", "5", "10")}
-    told = {
+    training_settings = {
         "steps": 40, "batch_size": 64, "learning_rate": 1e-3, "schedule": "one-cycle", "patience": None,
         "wording": "published", "cluster": 1, "width": 32, "text_encoder": "minilm",
     }  # fmt: skip
-    result = {"training": facts, "settings": told, "seed": seed}
+    result = {"training": facts, "settings": training_settings, "seed": seed}
     if run.method in ("matching", "regressor"):
         fine = {f"{who}within_{m}m": 0.5 for who in ("", "neighbour_") for m in (5, 10)}
         return result | {"validation": fine | {"cell_center": fine}}
@@ -189,12 +189,12 @@ def test_the_report_has_every_table_and_says_where_the_orders_hold(tmp_path) -> 
 
 
 def test_a_report_of_some_tables_has_no_others(tmp_path) -> None:
-    found = found_of(0) | {"experiments": ["2"]}
+    reproduction = found_of(0) | {"experiments": ["2"]}
     runs = {apply_variant(run, v).name for run in (MNCL, RET, TEXT2LOC, TEXT2POS) for v in TABLE_2.variants}
-    found["runs"] = {name: results for name, results in found["runs"].items() if name in runs}
+    reproduction["runs"] = {name: results for name, results in reproduction["runs"].items() if name in runs}
     for n in (3, 4):
         (tmp_path / f"figure{n}.png").write_bytes(b"old")
-    write_reproduction(tmp_path, found, "nowhere")
+    write_reproduction(tmp_path, reproduction, "nowhere")
     text = (tmp_path / "report.md").read_text()
     assert "Table 2" in text
     assert not any(f"## {title}" in text for title in ("Table 1", "Figure 4", "Figure 3", "Fine stages"))
@@ -205,7 +205,7 @@ def test_a_report_of_some_tables_has_no_others(tmp_path) -> None:
 
 def test_costs_are_those_of_a_typical_seed() -> None:
     """A run that was stopped for an hour does not spoil the table."""
-    found = found_of(0, 1, 2)
-    for result, speed in zip(found["runs"]["ret"], (2, 1, 0.01), strict=True):
+    reproduction = found_of(0, 1, 2)
+    for result, speed in zip(reproduction["runs"]["ret"], (2, 1, 0.01), strict=True):
         result["training"] |= {"descriptions_per_second": speed, "seconds_to_best": 100.0 / speed}
-    assert "| ret | 1 | 30 of 40 | 100 of 90 s | 900 MB |" in markdown(found | {"figure_3": False}, "nowhere")
+    assert "| ret | 1 | 30 of 40 | 100 of 90 s | 900 MB |" in markdown(reproduction | {"figure_3": False}, "nowhere")
