@@ -3,7 +3,6 @@
 import fcntl
 import hashlib
 import json
-import mmap
 import os
 import secrets
 import shutil
@@ -18,6 +17,8 @@ import numpy.typing as npt
 from pydantic import BaseModel, ConfigDict
 from safetensors import safe_open
 from safetensors.numpy import save_file
+
+from models.memory import map_file
 
 TEMP_PREFIX: Final = ".building-"  # of the name of a file or directory that is still being written
 
@@ -176,7 +177,7 @@ def map_arrays(path: Path) -> tuple[dict[str, npt.NDArray[Any]], dict[str, str]]
     """
     with safe_open(path, framework="numpy") as file:  # checks that all arrays lie within the file
         facts = file.metadata() or {}
-    content = np.memmap(path, np.uint8, mode="c").view(np.ndarray)
+    content = map_file(path)
     begin = 8 + int.from_bytes(content[:8].tobytes(), "little")
     header = json.loads(content[8:begin].tobytes())
     header.pop("__metadata__", None)
@@ -185,18 +186,6 @@ def map_arrays(path: Path) -> tuple[dict[str, npt.NDArray[Any]], dict[str, str]]
         first, last = (begin + offset for offset in array["data_offsets"])
         arrays[name] = content[first:last].view(_dtype(array["dtype"])).reshape(array["shape"])
     return arrays, facts
-
-
-def drop_pages(array: npt.NDArray[Any]) -> None:
-    """Have the system forget the pages of the file that an array of `map_arrays` lies in, until they are looked at.
-
-    What was written into any array of that file is lost; of a copy there is nothing to forget.
-    """
-    base: Any = array
-    while base is not None and not isinstance(base, mmap.mmap):
-        base = getattr(base, "base", None)  # bytes that an array is a view of have none
-    if base is not None:
-        base.madvise(mmap.MADV_DONTNEED)
 
 
 def _dtype(name: str) -> np.dtype[Any]:

@@ -1,8 +1,5 @@
 """Sharing work over forked processes, which see the parent's arrays without a copy."""
 
-import ctypes
-import gc
-import mmap
 import multiprocessing
 import os
 import sys
@@ -12,16 +9,15 @@ from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from functools import partial
 from multiprocessing.connection import Connection
-from pathlib import Path
-from typing import Any, Final, TypeVar
+from typing import Any, TypeVar
 
 from models.errors import DataError
+from models.memory import drop_pages, frozen_objects, release_memory
 
 Task = TypeVar("Task")
 Result = TypeVar("Result")
 
 FEW = 4  # tasks that are done at once in this process
-_ARENA_MAX: Final = -8  # M_ARENA_MAX of malloc.h
 
 _work: Callable[[Any], Any] | None = None  # what forked workers inherit, set before they start
 _alone = False
@@ -50,18 +46,13 @@ def map_forked(work: Callable[[Task], Result], tasks: Sequence[Task]) -> Iterato
         yield from map(work, tasks)
         return
     _work = work
-    give_back()  # or every worker has it too
-    was_frozen = gc.get_freeze_count() > 0
-    gc.freeze()  # or every worker that looks for garbage gets a copy of each page that holds an object
+    release_memory()
     try:
         context = multiprocessing.get_context("fork")
-        with ProcessPoolExecutor(mp_context=context, initializer=_begin) as pool:
+        with frozen_objects(), ProcessPoolExecutor(mp_context=context, initializer=_begin) as pool:
             yield from pool.map(_call, tasks)
     finally:
         _work = None
-        if not was_frozen:
-            gc.unfreeze()
-        give_back()
 
 
 @contextmanager
@@ -112,41 +103,6 @@ def _result_of(result: Connection) -> Any:
     raise value
 
 
-def give_back() -> None:
-    """Give memory that is free back to the system.
-
-    glibc keeps what lies free between what is not: of the arrays of unusual texts, a hundred megabytes in the end.
-    """
-    trim = getattr(ctypes.CDLL(None), "malloc_trim", None)
-    if trim is not None:  # glibc has it
-        trim(0)
-
-
-def share_one_heap() -> None:
-    """Have all threads of this process take memory from one heap.
-
-    glibc gives each its own, and what one has let go of is of no use to another.
-    """
-    set_option = getattr(ctypes.CDLL(None), "mallopt", None)
-    if set_option is not None:  # glibc has it
-        set_option(_ARENA_MAX, 1)
-
-
-def forget_code() -> None:
-    """Have the system forget the pages of program code that this process has run; what runs again comes back.
-
-    Most of what torch and LLVM run, a hundred megabytes, runs once: while they are imported and an index is opened.
-    """
-    if sys.platform != "linux":
-        return
-    madvise = ctypes.CDLL(None).madvise
-    for line in Path("/proc/self/maps").read_text().splitlines():
-        region, rights, *_, name = line.split(maxsplit=5)
-        if rights == "r-xp" and name.startswith("/"):  # of files, and never written: nothing is lost
-            start, end = (int(address, 16) for address in region.split("-"))
-            madvise(ctypes.c_void_p(start), ctypes.c_size_t(end - start), mmap.MADV_DONTNEED)
-
-
 def _begin() -> None:
     """What a forked process does first.
 
@@ -171,4 +127,6 @@ def _end_with_parent() -> None:
 
 def _call(task: Any) -> Any:
     assert _work is not None
-    return _work(task)
+    result = _work(task)
+    drop_pages()  # the next task reads other rows of mapped columns
+    return result

@@ -10,7 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from models.errors import DataError
-from models.files import drop_pages, scratch_directory
+from models.files import scratch_directory
+from models.memory import drop_pages, map_file
 
 Column = npt.NDArray[Any]
 HELD: Final = 2**20  # bytes of a column, up to which it stays in memory
@@ -67,7 +68,7 @@ def on_disk(rows: int, dtype: npt.DTypeLike) -> Column:
         for first in range(0, size, HELD):
             file.write(bytes(min(HELD, size - first)))
         file.flush()
-        return np.memmap(file, dtype, "r+", shape=(rows,)).view(np.ndarray)
+        return map_file(file, dtype, (rows,), "r+")
 
 
 def starts_of(sizes: Column) -> Column:
@@ -91,13 +92,7 @@ def in_turn(columns: Mapping[str, Column]) -> Iterator[dict[str, Column]]:
     """Columns of one length, some rows after the other; what was looked at takes no memory any more."""
     for first in range(0, max(map(len, columns.values())), AT_ONCE):
         yield {name: column[first : first + AT_ONCE] for name, column in columns.items()}
-        forget(columns.values())
-
-
-def forget(columns: Iterable[Column]) -> None:
-    """Have pages of columns on disk go, until they are looked at."""
-    for column in columns:
-        drop_pages(column)
+        drop_pages()
 
 
 @contextmanager
@@ -160,4 +155,4 @@ class _Growing:
         like = self._held[0]
         with spooling(), self._file as file:
             file.flush()
-            return np.memmap(file, like.dtype, "c", shape=(self._rows, *like.shape[1:])).view(np.ndarray)
+            return map_file(file, like.dtype, (self._rows, *like.shape[1:]))

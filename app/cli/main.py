@@ -191,23 +191,21 @@ def localize(
 ) -> None:
     """Find the position of the speaker of a description."""
     from app.settings import load_settings
-    from app.startup import without_garbage_collection
     from index.answering.query import Query
     from models.language.sentences import split_hints
 
     if text != STDIN:
         split_hints(text)  # raises DescriptionError before anything is loaded
     settings = load_settings(index_dir=index_dir)
-    with without_garbage_collection():
-        from index.answering.localizer import Localizer
+    from index.answering.localizer import Localizer
 
-        localizer = Localizer.open(
-            settings.index_dir, settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
-        )
-        make_query = partial(Query, top_k=top_k, refine=refine)
-        if text == STDIN:
-            raise typer.Exit(_answer_lines(localizer, make_query))
-        [answer] = localizer.localize([make_query(text)])
+    localizer = Localizer.open(
+        settings.index_dir, settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
+    )
+    make_query = partial(Query, top_k=top_k, refine=refine)
+    if text == STDIN:
+        raise typer.Exit(_answer_lines(localizer, make_query))
+    [answer] = localizer.localize([make_query(text)])
     if picture and answer.estimate:
         from index.answering.picture import draw_answer
 

@@ -17,16 +17,13 @@ from threading import Thread
 from typing import TYPE_CHECKING, Final
 
 from app.redaction import redacted_traceback
-from app.startup import without_garbage_collection
 from app.workers.messages import FORK, WorkerFault
 from models.errors import HereaboutsError
-from models.processes import forget_code, give_back, share_one_heap
+from models.memory import drop_code_pages, drop_pages
 
 if TYPE_CHECKING:
     from index.answering.localizer import Localizer
 
-IDLE_S: Final = 1.0  # without calls, after which free memory is returned to the system
-CALLS_BETWEEN_TRIMS: Final = 100  # fewer calls since the last trim are not worth another one
 SIGNALS: Final = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)  # left to the service, which drains
 
 
@@ -39,21 +36,19 @@ def main(control: Connection, preloaded: Sequence[str] = ()) -> None:
     """
     for number in SIGNALS:
         signal.signal(number, signal.SIG_IGN)
-    share_one_heap()
     try:
-        with without_garbage_collection():
-            for name in preloaded:
-                import_module(name)
-            try:
-                spec = control.recv()
-            except EOFError:
-                return  # the service is gone
-            localizer = spec.open()
+        for name in preloaded:
+            import_module(name)
+        try:
+            spec = control.recv()
+        except EOFError:
+            return  # the service is gone
+        localizer = spec.open()
     except Exception as error:
         control.send(_to_picklable(error))
         return
-    give_back()  # before forking, or every worker would inherit the free memory
-    forget_code()
+    drop_pages()
+    drop_code_pages()
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # exited workers are reaped automatically
     control.send((localizer.facts, localizer.frame))
     while True:
@@ -79,16 +74,11 @@ def _work(localizer: "Localizer", queries: Connection, reads: Connection) -> Non
 
 def _answer(localizer: "Localizer", connection: Connection) -> None:
     """Answer calls (name of a method, arguments), one after another."""
-    calls = 0
     while True:
         try:
-            if calls >= CALLS_BETWEEN_TRIMS and not connection.poll(IDLE_S):
-                give_back()
-                calls = 0
             name, arguments = connection.recv()
         except (EOFError, OSError):
             return
-        calls += 1
         try:
             answer = getattr(localizer, name)(*arguments)
         except Exception as error:

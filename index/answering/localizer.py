@@ -169,7 +169,7 @@ class Localizer:
             self.localize([Query("I am north of a building."), Query(f"I am on {street}, near a pharmacy.")])
         finally:
             self.ranker.store = store
-        load_text_encoder().quantize_now()
+        load_text_encoder()(["a"])  # quantize all layers before workers are forked
 
     def localizer_for(self, refine: Refine) -> CellLocalizer:
         """Return the localizer for a `refine`."""

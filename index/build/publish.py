@@ -25,14 +25,14 @@ from models.files import file_records, new_directory
 from models.language.mentions.lookup import Lookup
 from models.language.mentions.name_table import NameTable
 from models.language.text_encoder import load_text_encoder
+from models.memory import release_memory
 from models.paper.level_table import LevelTable
 from models.paper.retriever import Retriever
 from models.posterior.neighbours.neighbour_index import NeighbourIndex
 from models.posterior.node_batch import colour_words
 from models.posterior.statements import Statements
-from models.processes import give_back
 from models.sources.source import Source, open_gazetteer
-from models.spool import forget, spooled
+from models.spool import spooled
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -82,7 +82,6 @@ class Publisher:
         with explain_write_errors(self.out_dir):
             names_directory = names()
         report("write index", 0, 0)
-        give_back()
         columns = ({"vectors": part.vectors} for part in parts)
         vectors = parts[0].vectors if len(parts) == 1 else spooled(columns)["vectors"]
         with (
@@ -94,17 +93,16 @@ class Publisher:
         ):
             if collection is None:
                 FaissStore.from_vectors(vectors).save(directory / VECTORS_FILE)
-            forget([vectors])
+            release_memory()
             self._save_parts(directory, parts, data, surroundings)
-            give_back()
+            release_memory()
             data.gallery.save(directory, with_parts=not surroundings.cuts)
             surroundings.save(directory)
-            surroundings.forget()
             for file in names_directory.iterdir():
                 shutil.move(file, directory)
             gazetteer = Gazetteer.load(directory)
             build_landmarks(gazetteer, data.cells).save(directory)
-            give_back()
+            release_memory()
             save_scenery(directory, source.scenery(gazetteer))
             manifest = Manifest(
                 **origin,
@@ -130,15 +128,12 @@ class Publisher:
         save_hint_features(directory, self.retriever, template_hints(data.gallery, surroundings.things, data.palette))
         statements = Statements.joined([part.rows for part in parts], len(colour_words(data.palette)))
         statements.save(directory, self.posterior_fingerprint)
-        forget([statements.cell, statements.share])
-        for part in parts:
-            part.forget()
 
 
 def save_names(path: Path, directory: Path) -> Path:
     """Write the gazetteer of a map, its name table and the vectors of its phrases, and return the directory."""
     open_gazetteer(path).save(directory)
-    give_back()
+    release_memory()
     gazetteer, vocabulary, encoder = Gazetteer.load(directory), load_vocabulary(), load_text_encoder()
     table = NameTable.from_gazetteer(gazetteer, vocabulary, encoder.is_everyday)
     table.save(directory)

@@ -18,6 +18,7 @@ from models.citymap.gallery import MapData
 from models.citymap.types import Progress
 from models.errors import DataError, IndexBroken
 from models.files import map_arrays
+from models.memory import drop_pages
 from models.paper.instance_encoder import CellFeatures
 from models.paper.level_table import EMPTY_LEVEL_TABLE, LevelTable, encode_gallery
 from models.paper.levels import Level
@@ -28,9 +29,9 @@ from models.posterior.neighbours.piece_index import PieceNeighbourIndex
 from models.posterior.neighbours.scan_index import FILE as SURROUNDINGS_FILE
 from models.posterior.neighbours.scan_index import ScanNeighbourIndex
 from models.posterior.statements import StatementRows, statement_rows
-from models.processes import give_back, map_forked
+from models.processes import map_forked
 from models.sources.source import MapSource, Source
-from models.spool import forget, spooled
+from models.spool import spooled
 
 FILE: Final = "part.safetensors"
 COLUMNS: Final = ("starts", "statement", "holds", "vectors")
@@ -75,12 +76,9 @@ class ShardData:
         """
         if isinstance(source, MapSource):
             source.lighten()
-            give_back()
-        surroundings.forget()
         vectors, levels = _encode_cells(retriever, source.data, rows, report)
         if isinstance(source, MapSource) and isinstance(surroundings, PieceNeighbourIndex):
             source.defer_parts(surroundings.cut)
-            give_back()
         report("tabulate statements", 0, 0)
         data, objects = source.data, surroundings.things
         label, rgb = torch.from_numpy(objects.labels(data.gallery)[1]), torch.from_numpy(objects.rgb.astype(np.float32))
@@ -103,10 +101,6 @@ class ShardData:
             self.levels.save(directory)
         if self.scanned is not None:
             self.scanned.save(directory)
-
-    def forget(self) -> None:
-        """Drop pages of memory-mapped arrays; they are read again when needed."""
-        forget([self.vectors, *self.levels.vectors.values(), self.rows.statement, self.rows.holds])
 
     @classmethod
     def load(cls, directory: Path, levels: Sequence[Level], cells: CellTable) -> "ShardData":
@@ -161,7 +155,7 @@ def _encode_cells(retriever: Retriever, data: MapData, rows: range, report: Prog
         ]
         for span, features in zip(spans, CellFeatures.iterate_spans(data.cells, labels, spans), strict=True):
             with_points = retriever.with_point_features(features)
-            data.cells.parts.forget()
+            drop_pages()  # of the parts of these cells
             vectors, table = encode_gallery(retriever, with_points, map_forked)
             made = [vectors, *(table.vectors[level] for level in levels)]
             yield {"sizes": np.diff(table.starts)} | dict(zip(names, made, strict=True))

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from index.answering.query import Box
 from index.stores.store import Floats, Rows, best_first
 from models.errors import IndexBroken
-from models.spool import forget
+from models.memory import drop_pages
 
 # From 20 queries on, FAISS multiplies matrices, and rounding depends on the batch. Below that each query is scanned
 # alone, so its scores do not depend on the other queries.
@@ -206,7 +206,7 @@ def _blocks(vectors: Floats) -> Iterator[Floats]:
     """Yield blocks of vectors [N, D]; pages of a mapped file are dropped after use."""
     for first in range(0, len(vectors), VECTORS_PER_BLOCK):
         yield vectors[first : first + VECTORS_PER_BLOCK]
-        forget([vectors])
+        drop_pages()
 
 
 def _value_range(vectors: Floats) -> tuple[Floats, Floats]:

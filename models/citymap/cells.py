@@ -19,7 +19,6 @@ from models.citymap.point_sample import Sampler, sample_points, stack_samples
 from models.citymap.points import Ints, PointTable, ranges
 from models.citymap.types import CutRules, Floats
 from models.processes import map_forked
-from models.spool import forget
 
 CUBES_PER_TASK = 128  # cubes that one worker process cuts at a time
 GRID_POINTS_PER_BLOCK: Final = 100_000  # grid points that share one search tree of the locations near them
@@ -56,10 +55,6 @@ class PartTable:
     def cube(self) -> Ints:
         """Return the cube [R] of each row."""
         return np.repeat(np.arange(len(self.starts) - 1), np.diff(self.starts))
-
-    def forget(self) -> None:
-        """Have what lies on disk take no memory until it is looked at."""
-        forget(getattr(self, f.name) for f in fields(self))
 
     def take(self, cubes: Ints) -> "PartTable":
         """Return the rows of the given cubes, in their order."""

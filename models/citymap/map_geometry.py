@@ -16,8 +16,6 @@ from models.citymap.instances import InstanceTable
 from models.citymap.points import Ints, PointTable
 from models.citymap.types import CityMap, CutRules, Floats
 from models.errors import MapError
-from models.processes import give_back
-from models.spool import forget
 
 CutProgress = Callable[[int, int], None]  # cubes cut, cubes to cut
 
@@ -148,9 +146,7 @@ def cut_cells(city_map: CityMap, geometry: MapGeometry, progress: CutProgress | 
     """
     rules = city_map.rules
     centers = grid_centers(city_map.locations_m, rules)
-    forget([city_map.locations_m])
     parts = geometry.cut(centers, progress, rules.min_instances)
-    give_back()
     rich = np.flatnonzero(np.diff(parts.starts) >= rules.min_instances)
     if not len(rich):
         raise MapError(

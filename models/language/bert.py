@@ -7,12 +7,11 @@ import json
 from pathlib import Path
 from typing import Any, Self
 
-import numpy.typing as npt
 import torch
 from pydantic import BaseModel
 from torch import Tensor, nn
 
-from models.files import drop_pages, map_arrays
+from models.files import map_arrays
 
 
 class BertConfig(BaseModel):
@@ -35,7 +34,6 @@ class Bert(nn.Module):
     def __init__(self, config: BertConfig) -> None:
         super().__init__()
         self.config = config
-        self._mapped: npt.NDArray[Any] | None = None
         self.embeddings = _Embeddings(config)
         self.encoder = nn.ModuleDict({"layer": nn.ModuleList(Layer(config) for _ in range(config.num_hidden_layers))})
 
@@ -51,13 +49,7 @@ class Bert(nn.Module):
         if missing := set(wanted) - set(weights):
             raise ValueError(f"{directory / 'model.safetensors'} has no {min(missing)}")
         model.load_state_dict({name: torch.from_numpy(weights[name]) for name in wanted}, assign=True)
-        model._mapped = next(iter(weights.values()))
         return model
-
-    def drop_pages(self) -> None:
-        """Release the memory of the mapped weights; the system reads them again when they are used."""
-        if self._mapped is not None:
-            drop_pages(self._mapped)
 
 
 class _Embeddings(nn.Module):

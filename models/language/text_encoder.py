@@ -125,12 +125,6 @@ class TextEncoder(nn.Module):
             hidden[rows, :count] = run_int8_layers(self._int8_layers[:depth], embedded, mask[rows, :count])
         return hidden
 
-    def quantize_now(self) -> None:
-        """Quantize all layers and release the memory of the float weights."""
-        if isinstance(self.model, Bert):
-            self(["a"])
-            self.model.drop_pages()
-
     def pieces(self, word: str) -> list[str]:
         """Return the vocabulary's pieces of a word, without their marks."""
         return [piece.removeprefix("##") for piece in self.tokenizer.encode(word, add_special_tokens=False).tokens]

@@ -288,7 +288,6 @@ def statement_rows(
         value = share.numpy() / np.maximum(1, size)[cell]
         rows = coo_array((value, (cell, said)), (last - first, columns)).tocsr()
         holds = rows.data.astype(np.float32).astype(np.float16)
-        surroundings.forget()
         return {"size": np.diff(rows.indptr), "statement": rows.indices.astype(np.int32), "holds": holds}
 
     types: dict[str, npt.DTypeLike] = {"size": np.int32, "statement": np.int32, "holds": np.float16}

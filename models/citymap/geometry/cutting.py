@@ -120,9 +120,7 @@ def cut_pieces(
         least: cubes of fewer parts are left empty.
     """
     chunks = [centers_m[i : i + CUBES_PER_TASK] for i in range(0, len(centers_m), CUBES_PER_TASK)] or [centers_m]
-    work = partial(
-        _cut_chunk if len(chunks) == 1 else _cut_one_of_many, table, InstanceTotals.from_pieces(table), rules, least
-    )
+    work = partial(_cut_chunk, table, InstanceTotals.from_pieces(table), rules, least)
     done = 0
 
     def columns() -> Iterator[dict[str, npt.NDArray[Any]]]:
@@ -228,15 +226,6 @@ def _cut_chunk(table: PieceTable, whole: InstanceTotals, rules: CutRules, least:
         closest_m=np.column_stack([closest, np.clip(centers[cube, 2], base, top)])[rows].astype(np.float32),
         rgb=np.zeros((0, 3), np.float32),  # `cut_pieces` adds the colours of the instances
     )
-
-
-def _cut_one_of_many(
-    table: PieceTable, whole: InstanceTotals, rules: CutRules, least: int, centers: Floats
-) -> PartTable:
-    """Cut some cubes as `_cut_chunk`; the next chunk needs other pieces."""
-    parts = _cut_chunk(table, whole, rules, least, centers)
-    table.forget()
-    return parts
 
 
 def sample_pieces(

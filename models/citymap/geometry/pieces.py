@@ -16,7 +16,7 @@ from models.citymap.geometry.tiling import BEYOND_MAP_M, TILE_M, TOUCHING_M, Geo
 from models.citymap.points import Ints, block_keys, ranges, thin_to_spacing
 from models.citymap.types import Floats
 from models.compiled import compiled
-from models.spool import forget, in_turn, spooled, starts_of
+from models.spool import in_turn, spooled, starts_of
 
 PIECES_PER_BLOCK: Final = 20_000  # pieces whose geometries are built at a time, to bound memory
 TILE_COLUMNS_PER_BLOCK: Final = 64  # columns of tiles whose pieces are linked together
@@ -80,7 +80,6 @@ class PieceTable:
             {"tile": np.stack([block["column"], block["row"]], 1)} for block in in_turn({"column": column, "row": row})
         )
         table.__dict__["tile"] = spooled(tiles)["tile"]  # on disk, before the property makes it in memory
-        table.forget()
         return table
 
     @classmethod
@@ -91,10 +90,6 @@ class PieceTable:
     def columns(self) -> dict[str, npt.NDArray[Any]]:
         """Return all columns by the names that an index stores them under."""
         return {_STORED_NAMES.get(f.name, f.name): getattr(self, f.name) for f in fields(self)}
-
-    def forget(self) -> None:
-        """Have what lies on disk take no memory until it is looked at."""
-        forget(column for column in vars(self).values() if isinstance(column, np.ndarray))
 
     def renumber_instances(self, numbers: Ints) -> "PieceTable":
         """Return the table with instances numbered by their place among `numbers` [I], ascending."""

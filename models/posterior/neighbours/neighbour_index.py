@@ -69,10 +69,6 @@ class NeighbourIndex(Protocol):
         """
         ...
 
-    def forget(self) -> None:
-        """Release the memory of mapped arrays until they are read again."""
-        ...
-
     def save(self, directory: Path) -> None:
         """Write the index to one file."""
         ...

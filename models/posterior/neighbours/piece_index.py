@@ -24,7 +24,7 @@ from models.files import map_arrays
 from models.posterior.neighbours.map_objects import MapObjects
 from models.posterior.neighbours.neighbours import STEP_M, Neighbours
 from models.posterior.neighbours.nodes import SPACING_M, central_nodes, owner_of, put_in_order, slices
-from models.spool import forget, in_turn, on_disk, spooled
+from models.spool import in_turn, on_disk, spooled
 from models.strings import compact
 
 FILE: Final = "pieces.safetensors"
@@ -68,7 +68,6 @@ class PieceNeighbourIndex:
         offset, place = on_disk(2 * int(starts[-1]), np.int8).reshape(-1, 2), starts[:-1].copy()
         for some in in_turn(found):
             put_in_order(some["owner"], some["offset"], place, offset)
-            forget([offset])
         return cls(things, compact(starts), offset, bodies.pieces, bodies.rules, center_m)
 
     @property
@@ -132,11 +131,6 @@ class PieceNeighbourIndex:
             offset=self.offset[ranges(self.cell_starts[cells], self.cell_starts[cells + 1])],
             center_m=self.center_m[cells],
         )
-
-    def forget(self) -> None:
-        """As in `NeighbourIndex`."""
-        self.pieces.forget()
-        forget([self.offset])
 
     def save(self, directory: Path) -> None:
         """Write the index to one file."""

@@ -146,9 +146,6 @@ class ScanNeighbourIndex:
             whole=self.whole[rows][kept],
         )
 
-    def forget(self) -> None:
-        """Do nothing: the index of a scan is in memory."""
-
     def save(self, directory: Path) -> None:
         """Write the index to one file; the objects are in the gallery's."""
         save_file({name: np.ascontiguousarray(getattr(self, name)) for name in COLUMNS}, directory / FILE)

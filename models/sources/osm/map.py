@@ -275,7 +275,6 @@ def _city_map(name: str, strips: FeatureStrips, frame: Frame) -> CityMap:
     locations = imported.pieces.ground_lattice(
         np.flatnonzero(imported.is_walkable[imported.pieces.instance]), LOCATION_SPACING_M
     )
-    imported.pieces.forget()
     if not len(locations):
         raise MapError(f"{name}: it has no street, path or square, so nobody can stand there; take a larger extract")
     return CityMap(
