@@ -108,8 +108,8 @@ def spooling() -> Iterator[None]:
 class Spool:
     """Columns that grow, large ones in files without names, which go with their readers.
 
-    These lie where `spooling_in` says, else where temporary files do (TMPDIR). Pages come when they are looked at;
-    `forget` has them go.
+    The files lie where `spooling_in` says, else in the directory of temporary files (TMPDIR). Their pages are read on
+    access; `models.memory.drop_pages` releases them.
     """
 
     def __init__(self) -> None:

@@ -75,7 +75,7 @@ class ShardData:
             report: called as the work goes on.
         """
         if isinstance(source, MapSource):
-            source.lighten()
+            source.drop_geometry()
         vectors, levels = _encode_cells(retriever, source.data, rows, report)
         if isinstance(source, MapSource) and isinstance(surroundings, PieceNeighbourIndex):
             source.defer_parts(surroundings.cut)

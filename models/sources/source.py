@@ -183,8 +183,8 @@ class MapSource(Source):
         scan._geometry = ScannedPieceGeometry(self._geometry)
         return scan
 
-    def lighten(self) -> None:
-        """Let go of what queries alone need; there are none after that."""
+    def drop_geometry(self) -> None:
+        """Drop what only queries need; none can be drawn after that."""
         nowhere = np.zeros((0, 3), np.float32)  # no view of what there was
         self._map, self._locations_m = replace(self._map, instances=(), locations_m=nowhere), nowhere
 

@@ -1,4 +1,3 @@
-import ctypes
 import os
 import signal
 import subprocess
@@ -86,61 +85,6 @@ def test_no_process_outlives_the_one_that_was_killed() -> None:
         process.communicate(timeout=30)  # ends when nobody has the pipe any more
 
 
-HEAPS = """
-import ctypes, sys, threading
-from models.processes import share_one_heap
-if sys.argv[1] == "one":
-    share_one_heap()
-libc, sizes = ctypes.CDLL(None), []
-libc.fopen.restype, libc.malloc.restype = ctypes.c_void_p, ctypes.c_void_p
-meet = threading.Barrier(4)
-def take():
-    meet.wait()
-    libc.malloc(1000)
-    meet.wait()
-threads = [threading.Thread(target=take) for _ in range(4)]
-[thread.start() for thread in threads]
-[thread.join() for thread in threads]
-file = ctypes.c_void_p(libc.fopen(sys.argv[2].encode(), b"w"))
-libc.malloc_info(0, file)
-libc.fclose(file)
-"""
-
-
-@pytest.mark.skipif(not hasattr(ctypes.CDLL(None), "malloc_info"), reason="only glibc has several heaps")
 def test_libraries_whose_threads_have_run_already_are_used_in_forked_processes_too() -> None:
     environ = os.environ | {"OMP_NUM_THREADS": "2", "MKL_NUM_THREADS": "2"}
     subprocess.run([sys.executable, "-c", THREADS], env=environ, timeout=60, check=True)
-
-
-def test_threads_share_one_heap(tmp_path) -> None:
-    heaps = {}
-    for how in ("one", "several"):
-        subprocess.run([sys.executable, "-c", HEAPS, how, str(tmp_path / how)], check=True, timeout=60)
-        heaps[how] = (tmp_path / how).read_text().count("<heap nr=")
-    assert heaps["one"] == 1
-    assert heaps["several"] > 1
-
-
-CODE = """
-import re
-import torch
-from models.processes import forget_code
-
-def mapped_kib():
-    regions = re.split(r"^(?=[0-9a-f]+-[0-9a-f]+ )", open("/proc/self/smaps").read(), flags=re.M)
-    code = [region for region in regions if re.match(r"\\S+ r-xp .*libtorch_cpu", region)]
-    return sum(int(re.search(r"^Rss: +(\\d+)", region, re.M)[1]) for region in code)
-
-before = mapped_kib()
-forget_code()
-print(before, mapped_kib(), int((torch.ones(9) * 2).sum()))
-"""
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="only Linux says what is mapped")
-def test_code_that_was_run_is_forgotten_and_runs_again() -> None:
-    said = subprocess.run([sys.executable, "-c", CODE], check=True, timeout=120, capture_output=True, text=True).stdout
-    before, after, total = map(int, said.split())
-    assert total == 18
-    assert after < before / 2

@@ -6,7 +6,8 @@ import pytest
 from models import spool
 from models.errors import DataError
 from models.files import TEMP_PREFIX
-from models.spool import forget, in_turn, on_disk, scratch, spooled, spooling_in, starts_of
+from models.memory import drop_pages
+from models.spool import in_turn, on_disk, scratch, spooled, spooling_in, starts_of
 
 
 def parts(sizes):
@@ -39,7 +40,7 @@ def test_what_lies_on_disk_takes_no_memory_but_while_it_is_looked_at(monkeypatch
     assert max(kib for kib, _, _ in seen) < 500, "of 3.6 MB"
     assert columns["wide"].sum() == pytest.approx(sum(total for _, total, _ in seen), abs=1)
     assert resident(tmp_path) > 3000
-    forget(columns.values())
+    drop_pages()
     assert resident(tmp_path) == 0
 
 
@@ -61,7 +62,7 @@ def test_numbers_are_written_in_any_order(held, monkeypatch) -> None:
     assert not found.any()
     order = np.random.default_rng(0).permutation(50_000)
     found[order] = np.arange(50_000)
-    forget([found] if held == 1000 else [])
+    drop_pages()
     assert np.array_equal(found[order], np.arange(50_000)), "what was written stays when its pages go"
 
 

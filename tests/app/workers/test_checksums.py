@@ -47,7 +47,7 @@ def test_what_is_whole_passes_and_a_flipped_bit_is_named_without_its_place(root)
 
 
 @pytest.mark.parametrize(
-    ("code", "note"), [("import os; os.kill(os.getpid(), 9)", "status -9"), ("1 / 0", "ZeroDivisionError")]
+    ("code", "message"), [("import os; os.kill(os.getpid(), 9)", "status -9"), ("1 / 0", "ZeroDivisionError")]
 )
 def test_a_process_that_does_not_end_well_does_not_make_an_index_broken(root, monkeypatch, code, message):
     monkeypatch.setattr(sums, "PROCESS", (sys.executable, "-c", code))

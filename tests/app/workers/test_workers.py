@@ -1,13 +1,8 @@
-import ctypes
 import os
 import signal
 import sys
-import time
 from concurrent.futures import ThreadPoolExecutor
-from multiprocessing import Pipe
 from pathlib import Path
-from threading import Thread
-from types import SimpleNamespace
 
 import pytest
 from fastapi.testclient import TestClient
@@ -19,13 +14,10 @@ from ordered import Broken, Order
 from app.main import create_app
 from app.settings import Settings
 from app.workers import launch
-from app.workers import process as process_module
 from app.workers.messages import WorkerFault
-from app.workers.process import _answer
 from app.workers.remote import open_workers
 from index.answering.query import Query
 from models.errors import IndexBroken, ReplyError
-from models.processes import give_back
 
 
 @pytest.fixture(autouse=True)
@@ -188,37 +180,3 @@ def test_signals_of_a_terminal_or_a_stopping_system_are_for_the_service(workers)
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             os.kill(pid, number)
     assert ask(workers[0]) == pids
-
-
-def anonymous_mib():
-    [line] = [line for line in Path("/proc/self/status").read_text().splitlines() if line.startswith("RssAnon")]
-    return int(line.split()[1]) / 1024
-
-
-@pytest.mark.skipif(not hasattr(ctypes.CDLL(None), "malloc_trim"), reason="the C library is not glibc")
-def test_memory_that_is_free_is_given_back_though_some_above_it_is_not() -> None:
-    lists = [bytearray(5000) for _ in range(20_000)]
-    survivors = lists[::1000]
-    del lists
-    before = anonymous_mib()
-    give_back()
-    assert anonymous_mib() < before - 50
-    assert len(survivors) == 20
-
-
-def test_a_worker_gives_memory_back_when_it_rests_after_many_answers(monkeypatch):
-    times = []
-    monkeypatch.setattr(process_module, "CALLS_BETWEEN_TRIMS", 3)
-    monkeypatch.setattr(process_module, "IDLE_S", 0.2)
-    monkeypatch.setattr(process_module, "give_back", lambda: times.append(1))
-    own, other = Pipe()
-    thread = Thread(target=_answer, args=(SimpleNamespace(double=lambda n: 2 * n), other))
-    thread.start()
-    for rest_s, given_back in ((0.0, 0), (0.5, 1), (0.5, 1), (0.0, 1), (0.5, 2)):
-        for n in range(2 if rest_s else 1):
-            own.send(("double", (n,)))
-            assert own.recv() == 2 * n
-        time.sleep(rest_s)
-        assert len(times) == given_back
-    own.close()
-    thread.join(60)

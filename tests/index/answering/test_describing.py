@@ -152,7 +152,7 @@ def test_the_street_and_what_has_a_name():
 
 
 @pytest.mark.parametrize(
-    ("place_m", "most_crossing", "described"),
+    ("place_m", "most_crossing", "phrase"),
     [
         ((90, 84), 0, ["I am on West 25th Street, between 11th Avenue and 10th Avenue."]),
         ((90, 84), 1, ["I am on West 25th Street.", "11th Avenue is 90 m to my west."]),
