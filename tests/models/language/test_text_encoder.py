@@ -23,6 +23,7 @@ from models.language.int8 import (
     run_int8_layers,
 )
 from models.language.text_encoder import MINILM_SHA256, load_text_encoder, run_layers
+from models.memory import drop_pages
 
 SENTENCES = ["I am north of a gray building.", "A tree."]
 
@@ -81,11 +82,12 @@ def test_embeddings_in_8_bits(text_encoder) -> None:
     assert not found.equal(expected)
 
 
-def test_weights_that_the_system_forgot_come_again(text_encoder) -> None:
+def test_dropped_weights_are_read_again(text_encoder) -> None:
     before = [p.clone() for p in text_encoder.parameters()]
     words = text_encoder(SENTENCES).values
     resident = resident_mib()
     text_encoder.quantize_now()
+    drop_pages()
     assert resident_mib() < resident - 30, "MiniLM takes 87"
     text_encoder(SENTENCES)
     assert resident_mib() < resident - 30, "no text needs them"
