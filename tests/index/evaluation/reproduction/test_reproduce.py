@@ -198,7 +198,7 @@ def test_a_report_of_some_tables_has_no_others(tmp_path) -> None:
     text = (tmp_path / "report.md").read_text()
     assert "Table 2" in text
     assert not any(f"## {title}" in text for title in ("Table 1", "Figure 4", "Figure 3", "Fine stages"))
-    assert "Do the orders hold?" in text
+    assert "Does the order hold?" in text
     assert not list(tmp_path.glob("figure[34].png")), "those of an earlier report"
     assert {name for name in GROWTH if f"| {name}, our inputs | " in text} == set(GROWTH)
 
