@@ -195,13 +195,40 @@ class Likelihood(nn.Module):
         mixed: Tensor = (said @ torch.ones(hints) + self.habit.log_softmax(0)[:, None]).logsumexp(dim=0)
         return self.temper.exp() * mixed
 
-    def forward(self, reading: Reading, around: NodeBatch, palette: Palette, usual: Tensor) -> Tensor:
-        """[M] log p(T | x), up to a constant; `usual` as `usual_statements`."""
+    def tables(self) -> tuple[Tensor, Tensor]:
+        """Return `ways` and `log_pi`, which no description changes: compute them once where nothing is learnt."""
+        return self.ways(), self.log_pi()
+
+    def forward(
+        self,
+        reading: Reading,
+        around: NodeBatch,
+        palette: Palette,
+        usual: Tensor,
+        tables: tuple[Tensor, Tensor] | None = None,
+    ) -> Tensor:
+        """[M] log p(T | x), up to a constant; `usual` as `usual_statements`, `tables` of the method `tables`."""
+        ways, log_pi = tables or self.tables()
         fits = self.parts(reading, around.label, self.words(around.rgb, palette))
-        share = self.share_of(around, self.log_pi())
-        pairs = self.pairs(reading, fits, around.part, self.ways(), around.towards)
+        share = self.share_of(around, log_pi)
+        pairs = self.pairs(reading, fits, around.part, ways, around.towards)
         eps = self.chance(reading, usual)
         return self.combine(reading, around.node, around.nodes, pairs, share.index_select(0, pairs.row), eps)
+
+    def explain(
+        self, reading: Reading, around: NodeBatch, palette: Palette, usual: Tensor, tables: tuple[Tensor, Tensor]
+    ) -> tuple[Tensor, Tensor]:
+        """For each hint, the row of `around` (of one node) that explains it best, and the probability that any does.
+
+        A label that may be wrong explains less: at most twice its probability.
+        """
+        ways, log_pi = tables
+        fits = self.parts(reading, around.label, self.words(around.rgb, palette)).index_select(0, around.part)
+        place = self.places(reading, ways.index_select(0, around.towards))
+        terms = fits * place * self.share_of(around, log_pi).mean(dim=1, keepdim=True)
+        total, best = terms.sum(dim=0), terms.argmax(dim=0)
+        label = reading.label.gather(1, around.label[around.part[best]][:, None])[:, 0]
+        return best, total / (total + self.chance(reading, usual)) * (2 * label).clamp(max=1.0)
 
 
 def _falling(size: int, habit: int) -> Tensor:

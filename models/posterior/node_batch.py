@@ -52,9 +52,16 @@ class NodeBatch:
         return self.way + WAYS * self.is_vague.index_select(0, self.part)
 
     @classmethod
-    def of(cls, around: Neighbours, nodes: int, label: Tensor, rgb: Tensor, is_vague: Tensor) -> "NodeBatch":
-        """What is around so many nodes, of parts with labels, colours and whether they are vague [P of all, ...]."""
-        parts, part = np.unique(around.part, return_inverse=True)
+    def from_neighbours(
+        cls, around: Neighbours, nodes: int, label: Tensor, rgb: Tensor, is_vague: Tensor
+    ) -> "NodeBatch":
+        """Return the neighbours of `nodes` nodes; label, rgb and is_vague are those of all the map's objects."""
+        is_near = np.zeros(len(label), np.bool_)
+        is_near[around.part] = True
+        parts = np.flatnonzero(is_near)
+        row = np.empty(len(label), np.int64)
+        row[parts] = np.arange(len(parts))
+        part = row[around.part]
         node, way = torch.from_numpy(around.node), way_number(torch.from_numpy(around.way))
         rank = ranks_of(node, way, label[torch.from_numpy(around.part)])
         chosen = torch.from_numpy(parts)
@@ -83,34 +90,22 @@ def ranks_of(node: Tensor, way: Tensor, label: Tensor) -> Tensor:
 
 @compiled
 def _count(node: Ints, label: Ints, sector: Ints, ranks: Ints) -> None:
-    """Fill `ranks` for rows that are in order of node."""
-    begin, rows, counts = 0, len(node), no_counts(label)
+    """Fill `ranks` [R, 5] for rows in order of node."""
+    begin, rows, first = 0, len(node), label.max() + 1 if len(label) else 0
+    counts = np.zeros(first + SECTORS, np.int64)  # of each label, then of each sector, around the node at hand
     while begin < rows:
-        end = begin + 1
+        end = begin
         while end < rows and node[end] == node[begin]:
+            same_label, same_sector = counts[label[end]], counts[first + sector[end]]
+            ranks[end, 0] = min(end - begin, MOST[0])
+            ranks[end, 1], ranks[end, 2] = min(same_label, MOST[1]), min(same_sector, MOST[2])
+            counts[label[end]], counts[first + sector[end]] = same_label + 1, same_sector + 1
             end += 1
-        count_ranks(begin, end, label, sector, counts, ranks)
+        for r in range(begin, end):
+            ranks[r, 3], ranks[r, 4] = counts[label[r]], counts[first + sector[r]]
+        for r in range(begin, end):
+            counts[label[r]], counts[first + sector[r]] = 0, 0
         begin = end
-
-
-@compiled
-def no_counts(label: Ints) -> Ints:
-    """A zero for each label [R], then for each sector."""
-    return np.zeros((label.max() + 1 if len(label) else 0) + SECTORS, np.int64)
-
-
-@compiled
-def count_ranks(begin: int, end: int, label: Ints, sector: Ints, counts: Ints, ranks: Ints) -> None:
-    """Fill `ranks` [R, 5], see `ranks_of`, of one node's rows; `counts` are as `no_counts`, before and after."""
-    first = len(counts) - SECTORS
-    for r in range(begin, end):
-        alike, beside = counts[label[r]], counts[first + sector[r]]
-        ranks[r, 0], ranks[r, 1], ranks[r, 2] = min(r - begin, MOST[0]), min(alike, MOST[1]), min(beside, MOST[2])
-        counts[label[r]], counts[first + sector[r]] = alike + 1, beside + 1
-    for r in range(begin, end):
-        ranks[r, 3], ranks[r, 4] = counts[label[r]], counts[first + sector[r]]
-    for r in range(begin, end):
-        counts[label[r]], counts[first + sector[r]] = 0, 0
 
 
 def _sectors_of_ways() -> Tensor:

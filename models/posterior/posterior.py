@@ -18,8 +18,7 @@ from models.posterior.likelihood import Likelihood, Reading
 from models.posterior.nearby_objects import Sights
 from models.posterior.neighbours.neighbour_index import NeighbourIndex
 from models.posterior.neighbours.nodes import is_coarse
-from models.posterior.node_batch import usual_statements
-from models.posterior.node_likelihood import NodeLikelihood
+from models.posterior.node_batch import NodeBatch, usual_statements
 from models.posterior.places.field import PlaceEvidence
 from models.posterior.questions import Answered
 from models.posterior.statements import Statements
@@ -90,8 +89,7 @@ class HintPosterior:
         self._rgb = torch.from_numpy(surroundings.things.rgb.astype(np.float32))
         self._palette = palette
         self.usual = usual_statements(self._label, self._rgb, torch.from_numpy(surroundings.things.parts), palette)
-        is_vague = surroundings.things.is_vague
-        self._nodes = NodeLikelihood(likelihood, self._label, self._rgb, is_vague, palette, self.usual)
+        self._is_vague, self._tables = torch.from_numpy(surroundings.things.is_vague), likelihood.tables()
         self.statements = statements or Statements.of(
             likelihood, surroundings, self._label, self._rgb, likelihood.words(self._rgb, palette)
         )
@@ -140,7 +138,8 @@ class HintPosterior:
             nodes, cell, positions_m = nodes[kept], cell[kept], positions_m[kept]
         log_p: Floats = np.zeros(len(nodes))
         if reading is not None:
-            log_p = self._nodes.log_p(reading, s.around(nodes), len(nodes))
+            batch = NodeBatch.from_neighbours(s.around(nodes), len(nodes), self._label, self._rgb, self._is_vague)
+            log_p = self.likelihood(reading, batch, self._palette, self.usual, self._tables).double().numpy()
         if told is not None:
             log_p = log_p + told.at(positions_m, cell)
         if answered is not None:
@@ -154,14 +153,16 @@ class HintPosterior:
         """[n, W] chance of each colour word of some things [n]: a table of all would be the largest of a city."""
         return self.likelihood.words(self._rgb.index_select(0, things), self._palette)
 
+    @torch.inference_mode()
     def explain(self, reading: Reading, node: int) -> list[HintExplanation]:
         """For each hint what explains it best at a node."""
         around = self.surroundings.around(np.array([node]))
         if not len(around.part):
             return [UNEXPLAINED] * len(reading.label)
-        best, chance = self._nodes.explain(reading, around)
+        batch = NodeBatch.from_neighbours(around, 1, self._label, self._rgb, self._is_vague)
+        best, probability = self.likelihood.explain(reading, batch, self._palette, self.usual, self._tables)
         way_m = around.way_m
         return [
             HintExplanation(p, int(around.part[row]), way_m[row])
-            for row, p in zip(best.tolist(), chance.tolist(), strict=True)
+            for row, p in zip(best.tolist(), probability.tolist(), strict=True)
         ]

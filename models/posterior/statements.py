@@ -280,7 +280,7 @@ def statement_rows(
         last = min(first + CELLS_PER_BLOCK, len(starts) - 1)
         size = np.diff(starts[first : last + 1])
         around = surroundings.around(np.arange(starts[first], starts[last]))
-        batch = NodeBatch.of(around, int(size.sum()), label, rgb, is_vague)
+        batch = NodeBatch.from_neighbours(around, int(size.sum()), label, rgb, is_vague)
         with torch.inference_mode():
             share = likelihood.share_of(batch, likelihood.log_pi()).mean(dim=1)
         cell = np.repeat(np.arange(last - first), size)[around.node]

@@ -97,7 +97,7 @@ def nodes_of_cells(site: TrainingSite, cells: Ints) -> tuple[Ints, NodeBatch]:
     nodes = ranges(s.cell_starts[cells], s.cell_starts[cells + 1])
     label, rgb = torch.from_numpy(site.label), torch.from_numpy(s.things.rgb.astype(np.float32))
     is_vague = torch.from_numpy(s.things.is_vague)
-    return nodes, NodeBatch.of(s.around(nodes), len(nodes), label, rgb, is_vague)
+    return nodes, NodeBatch.from_neighbours(s.around(nodes), len(nodes), label, rgb, is_vague)
 
 
 def _tree(cells: CellTable) -> cKDTree:

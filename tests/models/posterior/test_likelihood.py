@@ -221,6 +221,36 @@ def test_what_is_absent_is_not_near(model):
         assert int(log_p.argmax()) == better, "node 0 has the thing, node 1 has nothing"
 
 
+@torch.no_grad()
+def test_a_text_of_200_hints_has_a_finite_likelihood(model):
+    rng = np.random.default_rng(3)
+    here, way = around(rng)
+    said = reading(rng, 200, 4)
+    expected = naive(model, said, here, way, KITTI360_PALETTE)
+    assert model(said, here, KITTI360_PALETTE, usual_of(here)).tolist() == pytest.approx(expected, rel=1e-4)
+
+
+@torch.no_grad()
+def test_a_hint_is_explained_by_the_object_in_its_direction(model):
+    """Of two like objects, one to the north and one nearly so, the vague one may be the northern one, too."""
+    model.border_m.copy_(torch.tensor([-3.0, 0.0]))
+    node, label = torch.zeros(2, dtype=torch.long), torch.zeros(2, dtype=torch.long)
+    way = way_number(torch.tensor([[40, 39], [-40, 39]], dtype=torch.int8))
+    relation, colour = torch.eye(len(RELATIONS))[:1], torch.eye(WORDS + 1)[-1:]
+    said = Reading(relation, torch.ones(1, 1), colour, torch.tensor([math.nan]), torch.zeros(1))
+    for vague in (0, 1):
+        here = NodeBatch(
+            node, way, torch.ones(2, dtype=torch.bool), ranks_of(node, way, label),
+            torch.arange(2), label, torch.full((2, 3), 0.4), torch.arange(2) == vague, 1,
+        )  # fmt: skip
+        best, probability = model.explain(said, here, KITTI360_PALETTE, usual_of(here), model.tables())
+        assert best.tolist() == [vague]
+        assert 0 < float(probability) < 1
+        doubtful = Reading(relation, torch.full((1, 1), 0.1), colour, said.distance_m, said.absent)
+        _, less = model.explain(doubtful, here, KITTI360_PALETTE, usual_of(here), model.tables())
+        assert float(less) < 0.2, "at most twice the probability of the label"
+
+
 def test_ranks_count_what_is_nearer():
     node = torch.tensor([0, 0, 0, 0, 1])
     way = torch.tensor([[0, 2], [0, 20], [0, 40], [50, 0], [0, 30]], dtype=torch.int8)

@@ -37,7 +37,9 @@ def test_a_statement_holds_in_a_cell_as_far_as_what_it_says_is_told_of_there(giv
     for cell in (0, 17, 60):
         nodes = np.arange(surroundings.cell_starts[cell], surroundings.cell_starts[cell + 1])
         around = surroundings.around(nodes)
-        batch = NodeBatch.of(around, len(nodes), label, rgb, torch.from_numpy(surroundings.things.is_vague))
+        batch = NodeBatch.from_neighbours(
+            around, len(nodes), label, rgb, torch.from_numpy(surroundings.things.is_vague)
+        )
         share = likelihood.share_of(batch, likelihood.log_pi()).mean(dim=1)
         naive = {}
         for part, (east, north), p in zip(around.part, around.way_m, share.tolist(), strict=True):
