@@ -27,24 +27,15 @@ CELLS_PER_BLOCK: Final = 1024  # encoded or tabulated together; no result depend
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PartTable:
-    """The parts of instances in N cubes: one row for each instance (or connected part of it) and cube.
+    """The parts of instances in N cubes: one row for each instance (or connected part of it) and cube."""
 
-    Attributes:
-        starts: [N + 1] cube n has the rows starts[n] to starts[n + 1].
-        instance: [R] int32, row in `CityMap.instances`.
-        count: [R] int32, points of the part.
-        low_m, high_m: [R, 3] float32, the part's bounding box, map frame.
-        closest_m: [R, 3] float32, the part's point nearest to the centre of the cube, map frame.
-        rgb: [R, 3] float32 mean colour, NaN where unknown.
-    """
-
-    starts: Ints
-    instance: Ints
-    count: Ints
-    low_m: Floats
+    starts: Ints  # [N + 1] cube n has the rows starts[n] to starts[n + 1]
+    instance: Ints  # [R] int32, row in `CityMap.instances`
+    count: Ints  # [R] int32, points of the part
+    low_m: Floats  # [R, 3] float32, the part's bounding box, map frame
     high_m: Floats
-    closest_m: Floats
-    rgb: Floats
+    closest_m: Floats  # [R, 3] float32, the part's point nearest to the centre of the cube, map frame
+    rgb: Floats  # [R, 3] float32 mean colour, NaN where unknown
 
     @property
     def center_m(self) -> Floats:
@@ -69,22 +60,14 @@ class PartTable:
 
 @dataclass(frozen=True, eq=False)
 class CellTable:
-    """The cells of one or more maps, in columns.
+    """The cells of one or more maps, in columns."""
 
-    Attributes:
-        ids: N names "<scene>_<number>".
-        scenes: N scene names.
-        center_m: [N, 3] float64, map frame.
-        size_m: edge of the cubes.
-        content: the parts in the cells, or a function that cuts the parts of some rows.
-        sample: returns sampled points of the parts; None where points are not available, as in an index.
-    """
-
-    ids: Sequence[str]
-    scenes: tuple[str, ...]
-    center_m: Floats
-    size_m: float
-    content: PartTable | Callable[[Ints], PartTable]
+    ids: Sequence[str]  # N names "<scene>_<number>"
+    scenes: tuple[str, ...]  # N scene names
+    center_m: Floats  # [N, 3] float64, map frame
+    size_m: float  # edge of the cubes
+    content: PartTable | Callable[[Ints], PartTable]  # the parts, or a function that cuts those of some rows
+    # Returns sampled points of the parts; None where points are not available, as in an index
     sample: Sampler | None = field(default=None, repr=False)
 
     def __len__(self) -> int:

@@ -13,18 +13,13 @@ Floats = npt.NDArray[np.floating[Any]]
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """A local east-north-up frame in metres (ROS REP-103), with an optional place on Earth.
+    """A local east-north-up frame in metres (ROS REP-103), with an optional place on Earth."""
 
-    Attributes:
-        frame_id: name of the frame in answers.
-        origin_lat, origin_lon: WGS84 degrees of the point (0, 0); None if the map has no georeference.
-        epsg: projected system whose axes the frame's are parallel to; None for a transverse Mercator
-            projection centred on the origin, which is true north and true to scale there.
-    """
-
-    frame_id: str = "map"
-    origin_lat: float | None = None
+    frame_id: str = "map"  # in answers
+    origin_lat: float | None = None  # WGS84 degrees of the point (0, 0); None if the map has no georeference
     origin_lon: float | None = None
+    # Projected system whose axes the frame's are parallel to; None for a transverse Mercator projection centred on the
+    # origin, which is true north and true to scale there
     epsg: int | None = None
 
     @property

@@ -34,15 +34,10 @@ MAX_ID_DIGITS: Final = 19  # a longer cell number does not fit 64 bits
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Gallery:
-    """Cells, with the labels, names and sources of the instances in them.
+    """Cells, with the labels, names and sources of the instances in them."""
 
-    Attributes:
-        cells: the cells; `parts.instance` is a row of the lists below.
-        labels, names, sources: one entry for each of I instances.
-    """
-
-    cells: CellTable
-    labels: Sequence[str]
+    cells: CellTable  # `parts.instance` is a row of the lists below
+    labels: Sequence[str]  # one entry for each of I instances, like the next two
     names: Sequence[str | None]
     sources: Sequence[str | None]
 
@@ -145,25 +140,15 @@ class NumberedCellIds(Sequence[str]):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MapData:
-    """A map, some of its scenes, or a region of it.
-
-    Attributes:
-        name: the map's name.
-        split: the part of it: "all", a split's name, or "index" for the content of an index.
-        gallery: its cells and instances.
-        palette: its colour words.
-        frame: its metric frame and place on Earth.
-        grid_m: distance between neighbouring cells.
-        attribution: the text that the data's licence asks to show.
-    """
+    """A map, some of its scenes, or a region of it."""
 
     name: str
-    split: str
+    split: str  # the part of it: "all", a split's name, or "index" for the content of an index
     gallery: Gallery
     palette: Palette
     frame: Frame = field(default_factory=Frame)
-    grid_m: float = 10.0
-    attribution: str = ""
+    grid_m: float = 10.0  # distance between neighbouring cells
+    attribution: str = ""  # the text that the data's licence asks to show
 
     @property
     def cells(self) -> CellTable:
@@ -179,24 +164,15 @@ class MapData:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PointClouds:
-    """The instances of one or more scanned scenes with all their points.
+    """The instances of one or more scanned scenes with all their points."""
 
-    Attributes:
-        xyz: [P, 3] float32 metres, ordered by instance.
-        starts: [I + 1] instance i has the points starts[i] to starts[i + 1].
-        is_thing: [I] bool, True for an instance that counts only where a share of it is near (`thing_share`).
-        scene: [I] number of the scene of each.
-        part_instances: [R] instance of each row of the cells' parts.
-        thing_share, min_part_points: as in `CutRules`.
-    """
-
-    xyz: Floats
-    starts: Ints
-    is_thing: npt.NDArray[np.bool_]
-    scene: Ints
-    part_instances: Ints
-    thing_share: float
-    min_part_points: int
+    xyz: Floats  # [P, 3] float32 metres, ordered by instance
+    starts: Ints  # [I + 1] instance i has the points starts[i] to starts[i + 1]
+    is_thing: npt.NDArray[np.bool_]  # [I] counts only where at least `thing_share` of it is near
+    scene: Ints  # [I] number of the scene of each
+    part_instances: Ints  # [R] instance of each row of the cells' parts
+    thing_share: float  # as in `CutRules`
+    min_part_points: int  # as in `CutRules`
 
     def instances_of_parts(self, _cells: CellTable) -> Ints:
         """Return the instance [R] of each row of the cells' parts."""

@@ -40,19 +40,12 @@ def direction_index(offset_m: Floats, on_top_m: float = ON_TOP_M) -> npt.NDArray
 
 @dataclass(frozen=True, slots=True, eq=False)
 class HintTable:
-    """All true hints at N positions, in columns.
+    """All true hints at N positions, in columns."""
 
-    Attributes:
-        starts: [N + 1] position n has the rows starts[n] to starts[n + 1], nearest first.
-        instance: [R] row in `CityMap.instances`.
-        direction: [R] index into DIRECTIONS.
-        colour: [R] index into the palette's words, -1 if unknown.
-    """
-
-    starts: npt.NDArray[Any]
-    instance: npt.NDArray[Any]
-    direction: npt.NDArray[Any]
-    colour: npt.NDArray[Any]
+    starts: npt.NDArray[Any]  # [N + 1] position n has the rows starts[n] to starts[n + 1], nearest first
+    instance: npt.NDArray[Any]  # [R] row in `CityMap.instances`
+    direction: npt.NDArray[Any]  # [R] index into DIRECTIONS
+    colour: npt.NDArray[Any]  # [R] index into the palette's words, -1 if unknown
 
 
 def build_hint_table(palette: Palette, parts: PartTable, positions_m: Floats) -> HintTable:

@@ -14,18 +14,13 @@ NO_POINTS: Final = np.zeros((0, 3), np.float32)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class InstanceTable(Sequence[Instance]):
-    """The I instances of a map of lines and areas.
-
-    Attributes:
-        labels, names, sources, shapes: as of `Instance`.
-        rgb: [I, 3] float32, NaN where unknown.
-    """
+    """The I instances of a map of lines and areas."""
 
     labels: Categorical
     names: Categorical
     sources: Categorical
     shapes: Categorical
-    rgb: Floats
+    rgb: Floats  # [I, 3] float32, NaN where unknown
 
     def __len__(self) -> int:
         return len(self.labels)

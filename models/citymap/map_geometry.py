@@ -34,12 +34,7 @@ class MapGeometry(Protocol):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ScanGeometry:
-    """The points of a scan.
-
-    Attributes:
-        points: all points.
-        rules: how to cut them.
-    """
+    """The points of a scan."""
 
     points: PointTable
     rules: CutRules
@@ -56,18 +51,11 @@ class ScanGeometry:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PieceGeometry:
-    """The pieces of a map of lines and areas.
-
-    Attributes:
-        pieces: the pieces of each tile.
-        rgb: [I, 3] float32 colour of each instance, NaN where unknown.
-        shapes: I shapes, see `models.citymap.geometry.solids`.
-        rules: how to cut them.
-    """
+    """The pieces of a map of lines and areas."""
 
     pieces: PieceTable
-    rgb: Floats
-    shapes: Sequence[str]
+    rgb: Floats  # [I, 3] float32 colour of each instance, NaN where unknown
+    shapes: Sequence[str]  # I shapes, see `models.citymap.geometry.solids`
     rules: CutRules
 
     def cut(self, centers_m: Floats, progress: CutProgress | None = None, least: int = 0) -> PartTable:
@@ -104,11 +92,7 @@ class PieceGeometry:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ScannedPieceGeometry:
-    """A map of lines and areas as a scan would show it: the closest point of a part is a sampled one.
-
-    Attributes:
-        pieces: the map.
-    """
+    """A map of lines and areas as a scan would show it: the closest point of a part is a sampled one."""
 
     pieces: PieceGeometry
 

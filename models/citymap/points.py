@@ -15,30 +15,18 @@ Ints = npt.NDArray[np.integer[Any]]
 
 @dataclass(frozen=True, eq=False)
 class PointTable:
-    """The points of a map, ordered by instance, with a grid of tiles and the neighbour pairs of stuff.
+    """The points of a map, ordered by instance, with a grid of tiles and the neighbour pairs of stuff."""
 
-    Attributes:
-        xyz: [P, 3] float32, metres, map frame.
-        instance: [P] int32, row in `CityMap.instances`.
-        starts: [I + 1] int64, instance i has the points starts[i] to starts[i + 1].
-        rgb: [P, 3] float32, NaN where unknown; None if every instance has at most one colour.
-        instance_rgb: [I, 3] float32 mean colour, NaN where unknown.
-        is_stuff: [I] bool, True where an instance is clipped to cells.
-        tile_order: [P] point rows sorted by tile, then by row; tile_key: [P] their tiles' keys.
-        pair_starts: [P + 1], pairs: [E] int32: row p has the later neighbours pairs[pair_starts[p]:pair_starts[p + 1]]
-            within eps of it in the same instance (stuff only).
-    """
-
-    xyz: Floats
-    instance: Ints
-    starts: Ints
-    rgb: Floats | None
-    instance_rgb: Floats
-    is_stuff: npt.NDArray[np.bool_]
-    tile_order: Ints
-    tile_key: Ints
-    pair_starts: Ints
-    pairs: Ints
+    xyz: Floats  # [P, 3] float32, metres, map frame
+    instance: Ints  # [P] int32, row in `CityMap.instances`
+    starts: Ints  # [I + 1] int64, instance i has the points starts[i] to starts[i + 1]
+    rgb: Floats | None  # [P, 3] float32, NaN where unknown; None if every instance has at most one colour
+    instance_rgb: Floats  # [I, 3] float32 mean colour, NaN where unknown
+    is_stuff: npt.NDArray[np.bool_]  # [I] bool, True where an instance is clipped to cells
+    tile_order: Ints  # [P] point rows sorted by tile, then by row
+    tile_key: Ints  # [P] the keys of their tiles
+    pair_starts: Ints  # [P + 1]
+    pairs: Ints  # pairs[pair_starts[p]:pair_starts[p + 1]] are the later neighbours of row p in the same stuff instance
 
     @classmethod
     def from_map(cls, city_map: CityMap, eps_m: float) -> "PointTable":

@@ -17,23 +17,15 @@ from models.citymap.types import Floats, Hint
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Queries:
-    """Q descriptions with known positions.
+    """Q descriptions with known positions."""
 
-    Attributes:
-        sentences: the hint sentences of each description, in the benchmark's wording or the user's own.
-        positions_m: [Q, 2] float64 true positions, map frame.
-        truth: [Q] row of the best cell, -1 if no centre is within 15 m of the position.
-        scenes: scene of each query; a result in another scene is wrong.
-        strategies: how the hints were chosen, "" if unknown.
-        hints: the hints of each description; None where only text is known.
-    """
-
+    # The hint sentences of each description, in the benchmark's wording or the user's own
     sentences: Sequence[tuple[str, ...]]
-    positions_m: Floats
-    truth: npt.NDArray[np.intp]
-    scenes: Sequence[str]
-    strategies: Sequence[str]
-    hints: Sequence[tuple[Hint, ...]] | None = None
+    positions_m: Floats  # [Q, 2] float64 true positions, map frame
+    truth: npt.NDArray[np.intp]  # [Q] row of the best cell, -1 if no centre is within 15 m of the position
+    scenes: Sequence[str]  # scene of each query; a result in another scene is wrong
+    strategies: Sequence[str]  # how the hints were chosen, "" if unknown
+    hints: Sequence[tuple[Hint, ...]] | None = None  # the hints of each description; None where only text is known
 
     @classmethod
     def from_text(cls, sentences: Sequence[tuple[str, ...]], positions_m: Floats, cells: CellTable) -> "Queries":
@@ -91,24 +83,13 @@ class Queries:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PositionStatements:
-    """Positions with all hints that are true there.
-
-    Attributes:
-        gallery: the cells around them.
-        positions_m: [N, 2 or more] positions; those of different scenes are far from each other.
-        best: [N] best cell of each position.
-        table: the hints.
-        labels: label of each instance in the table.
-        words: colour words that the table numbers.
-        part_number: [R] number of the instance of each row of the cells' parts.
-        mentioned_number: [H] number of the instance of each row of the table, -1 if unknown.
-    """
+    """Positions with all hints that are true there."""
 
     gallery: Gallery
-    positions_m: Floats
-    best: npt.NDArray[np.intp]
+    positions_m: Floats  # [N, 2 or more] positions; those of different scenes are far from each other
+    best: npt.NDArray[np.intp]  # [N] best cell of each position
     table: HintTable
-    labels: Sequence[str]
-    words: tuple[str, ...]
-    part_number: npt.NDArray[Any]
-    mentioned_number: npt.NDArray[Any]
+    labels: Sequence[str]  # label of each instance in the table
+    words: tuple[str, ...]  # colour words that the table numbers
+    part_number: npt.NDArray[Any]  # [R] number of the instance of each row of the cells' parts
+    mentioned_number: npt.NDArray[Any]  # [H] number of the instance of each row of the table, -1 if unknown

@@ -12,22 +12,16 @@ from models.errors import DataError
 
 SUFFIXES = (".jsonl", ".jsonl.gz")
 START_SIGMA_M = 800.0  # standard deviation of the prior around a start; set by hand, not fitted
-LatLon = tuple[float, float]
+LatLon = tuple[float, float]  # degrees
 
 
 @dataclass(frozen=True, slots=True)
 class PlaceText:
-    """A text about a place.
-
-    Attributes:
-        text: as written.
-        goal: the place it describes, latitude and longitude in degrees.
-        start: the listener's position; None if unknown.
-    """
+    """A text about a place."""
 
     text: str
-    goal: LatLon
-    start: LatLon | None = None
+    goal: LatLon  # the place it describes
+    start: LatLon | None = None  # the listener's position; None if unknown
 
 
 def load_place_texts(path: Path) -> list[PlaceText]:

@@ -49,15 +49,10 @@ STUFF_LABELS = [rule.label for rule in CLASSES if rule.is_stuff]
 
 
 class Source(ABC):
-    """A map, some of its scenes, or a region of it, with descriptions of its positions.
-
-    Attributes:
-        data: its cells.
-        facts: a summary for the record next to the weights.
-    """
+    """A map, some of its scenes, or a region of it, with descriptions of its positions."""
 
     data: MapData
-    facts: dict[str, Any]
+    facts: dict[str, Any]  # a summary for the record next to the weights
 
     @abstractmethod
     def queries(self, seed: int = TEST_SEED, spacing_m: float = QUERY_SPACING_M) -> Queries:

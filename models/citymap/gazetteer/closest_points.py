@@ -13,19 +13,12 @@ from models.compiled import compiled, longer
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PointGroups:
-    """Positions in groups of near ones, which are searched together.
+    """Positions in groups of near ones, which are searched together."""
 
-    Attributes:
-        points_m: [N, 2], in order of group.
-        starts: [C + 1] group c has the points starts[c] to starts[c + 1].
-        centers_m: [C, 2] of the groups.
-        radius_m: greatest distance of a point from its group's centre.
-    """
-
-    points_m: Floats
-    starts: Ints
-    centers_m: Floats
-    radius_m: float
+    points_m: Floats  # [N, 2], in order of group
+    starts: Ints  # [C + 1] group c has the points starts[c] to starts[c + 1]
+    centers_m: Floats  # [C, 2] of the groups
+    radius_m: float  # greatest distance of a point from its group's centre
 
     @classmethod
     def from_groups(cls, points_m: Floats, group: Ints) -> "PointGroups":
@@ -40,17 +33,11 @@ class PointGroups:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ClosestPoints:
-    """Offsets from positions to the closest points of objects near them.
+    """Offsets from positions to the closest points of objects near them."""
 
-    Attributes:
-        point: [P] position.
-        target: [P] index among the objects searched.
-        offset_m: [P, 2] from the position to the closest point of the object; zero inside an area.
-    """
-
-    point: Ints
-    target: Ints
-    offset_m: Floats
+    point: Ints  # [P] position
+    target: Ints  # [P] index among the objects searched
+    offset_m: Floats  # [P, 2] from the position to the closest point of the object; zero inside an area
 
     @property
     def distance_m(self) -> Floats:

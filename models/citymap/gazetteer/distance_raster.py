@@ -38,17 +38,11 @@ CACHE_BYTES = 16 * 2**20  # of distances that are kept for the next request
 
 @dataclass(frozen=True, slots=True, eq=False)
 class GroupDistances:
-    """Distances from the cells of a map to T groups of objects.
+    """Distances from the cells of a map to T groups of objects."""
 
-    Attributes:
-        squares: [T, columns, rows] of pixels, as of `squared_distances`.
-        blocks: [T, ...] index into `block_steps_m` of each block.
-        is_near: whether a block may have pixels near an object.
-    """
-
-    squares: SquaredDistances
-    blocks: SquaredDistances
-    is_near: Mask
+    squares: SquaredDistances  # [T, columns, rows] of pixels, as of `squared_distances`
+    blocks: SquaredDistances  # [T, ...] index into `block_steps_m` of each block
+    is_near: Mask  # whether a block may have pixels near an object
 
     @property
     def nbytes(self) -> int:

@@ -26,23 +26,14 @@ GAZETTEER_FILE = "gazetteer.safetensors"
 
 @dataclass(frozen=True, eq=False)
 class Gazetteer:
-    """O objects.
+    """O objects."""
 
-    Attributes:
-        objects: kinds, names and address of each.
-        segments_m: [G, 4] float32, x and y of both ends, map frame; a point is a segment without length.
-        starts: [O + 1] object o has the segments starts[o] to starts[o + 1].
-        is_area: [O] bool, True where the segments close to rings and the object is what is inside.
-        corner_streets: [C, 2] objects of kind STREET_KIND that meet, the lower first.
-        corners_m: [C, 2] float32, where they meet.
-    """
-
-    objects: ObjectTable
-    segments_m: Floats
-    starts: Ints
-    is_area: npt.NDArray[np.bool_]
-    corner_streets: Ints
-    corners_m: Floats
+    objects: ObjectTable  # kinds, names and address of each
+    segments_m: Floats  # [G, 4] float32, x and y of both ends, map frame; a point is a segment without length
+    starts: Ints  # [O + 1] object o has the segments starts[o] to starts[o + 1]
+    is_area: npt.NDArray[np.bool_]  # [O] bool, True where the segments close to rings and the object is what is inside
+    corner_streets: Ints  # [C, 2] objects of kind STREET_KIND that meet, the lower first
+    corners_m: Floats  # [C, 2] float32, where they meet
 
     def __len__(self) -> int:
         return len(self.objects)

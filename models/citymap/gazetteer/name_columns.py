@@ -20,20 +20,13 @@ Mask = npt.NDArray[np.bool_]
 
 @dataclass(frozen=True, slots=True)
 class GazetteerObject:
-    """Kinds, names and address of an object.
+    """Kinds, names and address of an object."""
 
-    Attributes:
-        kinds: ids of `models.citymap.kinds`, most specific first.
-        names: all its names, the one to show first; many objects have none.
-        number, street: of its address.
-        source_id: the element it was read from ("way/1234").
-    """
-
-    kinds: tuple[str, ...]
-    names: tuple[str, ...] = ()
-    number: str | None = None
-    street: str | None = None
-    source_id: str | None = None
+    kinds: tuple[str, ...]  # ids of `models.citymap.kinds`, most specific first
+    names: tuple[str, ...] = ()  # all its names, the one to show first; many objects have none
+    number: str | None = None  # of its address
+    street: str | None = None  # of its address
+    source_id: str | None = None  # the element it was read from ("way/1234")
 
     @property
     def numbers(self) -> tuple[str, ...]:

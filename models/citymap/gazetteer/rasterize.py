@@ -13,17 +13,11 @@ Mask = npt.NDArray[np.bool_]
 
 
 class PixelGrid(NamedTuple):
-    """A grid of pixels, each numbered column * rows + row.
+    """A grid of pixels, each numbered column * rows + row."""
 
-    Attributes:
-        west_m, south_m: middle of the first pixel, map frame.
-        spacing_m: edge of a pixel.
-        columns, rows: size.
-    """
-
-    west_m: float
+    west_m: float  # middle of the first pixel, map frame
     south_m: float
-    spacing_m: float
+    spacing_m: float  # edge of a pixel
     columns: int
     rows: int
 

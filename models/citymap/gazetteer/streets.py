@@ -18,19 +18,12 @@ CORNER_MERGE_M = 45.0  # carriageways of one street cross another within this di
 
 @dataclass(frozen=True, slots=True, eq=False)
 class StreetPiece:
-    """A piece of a street.
-
-    Attributes:
-        object: its names.
-        nodes: [n] numbers of its nodes; streets that share a node meet there.
-        segments_m: [s, 4].
-        nodes_m: [n, 2] positions of the nodes.
-    """
+    """A piece of a street."""
 
     object: GazetteerObject
-    nodes: Ints
-    segments_m: Floats
-    nodes_m: Floats
+    nodes: Ints  # [n] numbers of its nodes; streets that share a node meet there
+    segments_m: Floats  # [s, 4]
+    nodes_m: Floats  # [n, 2] positions of the nodes
 
 
 class StreetPieces:

@@ -26,20 +26,13 @@ CUBES_PER_TASK = 1024  # cubes that one worker process cuts at a time
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CubeContents:
-    """The pieces in some cubes: P rows in order of cube.
+    """The pieces in some cubes: P rows in order of cube."""
 
-    Attributes:
-        cube, piece: [P].
-        geometry: [P] the part of the piece in the cube.
-        bounds_m: [P, 4] its box.
-        point_count: [P] its share of the piece's points.
-    """
-
-    cube: Ints
-    piece: Ints
-    geometry: Geometries
-    bounds_m: Floats
-    point_count: Floats
+    cube: Ints  # [P]
+    piece: Ints  # [P]
+    geometry: Geometries  # [P] the part of the piece in the cube
+    bounds_m: Floats  # [P, 4] its box
+    point_count: Floats  # [P] its share of the piece's points
 
     @classmethod
     def cut(cls, table: PieceTable, centers_m: Floats, size_m: float) -> "CubeContents":
@@ -141,15 +134,10 @@ def cut_pieces(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class InstanceTotals:
-    """Sums over all pieces of each instance, for things, which are kept whole.
+    """Sums over all pieces of each instance, for things, which are kept whole."""
 
-    Attributes:
-        point_count: [I].
-        bounds_m: [I, 4].
-    """
-
-    point_count: Floats
-    bounds_m: Floats
+    point_count: Floats  # [I]
+    bounds_m: Floats  # [I, 4]
 
     @classmethod
     def from_pieces(cls, table: PieceTable) -> "InstanceTotals":
@@ -164,19 +152,12 @@ class InstanceTotals:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _PartGroups:
-    """The parts in some cubes as groups of pieces.
-
-    Attributes:
-        cubes: the pieces.
-        order: [P'] rows of `cubes`, group after group; groups by cube, things first, then instance.
-        starts: [G] where in `order` each group begins.
-        is_kept: [G] whether the group is large enough to be a part.
-    """
+    """The parts in some cubes as groups of pieces."""
 
     cubes: CubeContents
-    order: Ints
-    starts: Ints
-    is_kept: npt.NDArray[np.bool_]
+    order: Ints  # [P'] rows of `cubes`, group after group; groups by cube, things first, then instance
+    starts: Ints  # [G] where in `order` each group begins
+    is_kept: npt.NDArray[np.bool_]  # [G] whether the group is large enough to be a part
 
     @classmethod
     def cut(cls, table: PieceTable, whole: InstanceTotals, rules: CutRules, centers: Floats) -> "_PartGroups":

@@ -27,17 +27,10 @@ TILE_COLUMNS_PER_BAND: Final = 24  # columns of tiles that are cut together
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PieceRows:
-    """K pieces in order of tile; see `PieceTable`.
+    """K pieces in order of tile; see `PieceTable`."""
 
-    Attributes:
-        column, row: [K] tile.
-        instance, form, dimension, bounds_m, heights_m, crown_m, point_count: as of the table.
-        sizes: [K] number of segments.
-        segments: [S, 4] of all.
-    """
-
-    column: Ints
-    row: Ints
+    column: Ints  # [K] tile
+    row: Ints  # [K] tile
     instance: Ints
     form: Ints
     dimension: Ints
@@ -45,8 +38,8 @@ class PieceRows:
     heights_m: Floats
     crown_m: Floats
     point_count: Floats
-    sizes: Ints
-    segments: Steps
+    sizes: Ints  # [K] number of segments
+    segments: Steps  # [S, 4] of all
 
     @classmethod
     def concatenate(cls, tables: Sequence["PieceRows"]) -> "PieceRows":
@@ -62,16 +55,12 @@ class PieceRows:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _SolidArrays:
-    """N solids of one form, in columns.
-
-    Attributes:
-        first, last: [N] columns of tiles that each spans.
-    """
+    """N solids of one form, in columns."""
 
     form: int
     geometry: Geometries
-    first: Ints
-    last: Ints
+    first: Ints  # [N] first column of tiles that each spans
+    last: Ints  # [N] last one
     instance: Ints
     heights_m: Floats
     radius_m: Floats

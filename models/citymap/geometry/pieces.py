@@ -27,37 +27,22 @@ _FIELD_NAMES: Final = {stored: name for name, stored in _STORED_NAMES.items()}
 
 @dataclass(frozen=True, eq=False)
 class PieceTable:
-    """K pieces, in order of tile, then instance.
+    """K pieces, in order of tile, then instance."""
 
-    Attributes:
-        low: [2] column and row of the first tile.
-        shape: [2] number of columns and rows.
-        tile_starts: [columns * rows + 1] tile (c, r) has the pieces tile_starts[c * rows + r] to the next.
-        instance: [K] int32.
-        form: [K] index into FORMS.
-        dimension: [K] int8 of its geometry: 0 for points, 1 for lines, 2 for areas.
-        bounds_m: [K, 4] float32 its box, metres, map frame.
-        heights_m: [K, 2] float32 base and top.
-        crown_m: [K] float32 radius of a tree's crown, 0 for others.
-        point_count: [K] float32 points that a scanner would measure on it.
-        segment_starts: [K + 1] int32, segments: [S, 4] int16 its lines and rings, see `to_segments`.
-        link_starts: [K + 1], links: piece k is connected with links[link_starts[k]:link_starts[k + 1]].
-    """
-
-    low: Ints
-    shape: Ints
-    tile_starts: Ints
-    instance: Ints
-    form: Ints
-    dimension: Ints
-    bounds_m: Floats
-    heights_m: Floats
-    crown_m: Floats
-    point_count: Floats
-    segment_starts: Ints
-    segments: Steps
-    link_starts: Ints
-    links: Ints
+    low: Ints  # [2] column and row of the first tile
+    shape: Ints  # [2] number of columns and rows
+    tile_starts: Ints  # [columns * rows + 1] tile (c, r) has the pieces tile_starts[c * rows + r] to the next
+    instance: Ints  # [K] int32
+    form: Ints  # [K] index into FORMS
+    dimension: Ints  # [K] int8 of its geometry: 0 for points, 1 for lines, 2 for areas
+    bounds_m: Floats  # [K, 4] float32 its box, metres, map frame
+    heights_m: Floats  # [K, 2] float32 base and top
+    crown_m: Floats  # [K] float32 radius of a tree's crown, 0 for others
+    point_count: Floats  # [K] float32 points that a scanner would measure on it
+    segment_starts: Ints  # [K + 1] int32
+    segments: Steps  # [S, 4] int16 its lines and rings, see `to_segments`
+    link_starts: Ints  # [K + 1]
+    links: Ints  # piece k is connected with links[link_starts[k]:link_starts[k + 1]]
 
     @classmethod
     def from_bands(cls, bands: Iterable[PieceRows]) -> "PieceTable":

@@ -24,20 +24,14 @@ BOX_HALF_WIDTH_M: Final = 0.3  # of a small box
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Solid:
-    """A feature of a map.
-
-    Attributes:
-        instance: the instance it is part of.
-        shape: "ground" is filled, and covered by earlier solids; "outline" and "wall" are raised along
-            their lines; "column", "crown" and "box" are things, kept whole.
-        geometry: areas of ground, else lines or a point. Metres, map frame.
-        base_m, height_m: heights above the ground of its base and top.
-    """
+    """A feature of a map."""
 
     instance: int
+    # "ground" is filled, and covered by earlier solids; "outline" and "wall" are raised along their lines; "column",
+    # "crown" and "box" are things, kept whole
     shape: Shape
-    geometry: shapely.Geometry
-    base_m: float = 0.0
+    geometry: shapely.Geometry  # areas of ground, else lines or a point; metres, map frame
+    base_m: float = 0.0  # height of its base above the ground
     height_m: float = 0.0
 
     @property

@@ -24,18 +24,12 @@ TOUCHING_M = 0.75  # parts this near are connected (rule 4)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Clipped:
-    """Features clipped to tiles, F rows in order of tile, then feature.
+    """Features clipped to tiles, F rows in order of tile, then feature."""
 
-    Attributes:
-        column, row: [F] tile: its middle is at (column, row) * TILE_M.
-        feature: [F] index of the feature.
-        geometry: [F] the part in the tile.
-    """
-
-    column: Ints
+    column: Ints  # [F] tile: its middle is at (column, row) * TILE_M
     row: Ints
-    feature: Ints
-    geometry: Geometries
+    feature: Ints  # [F] index of the feature
+    geometry: Geometries  # [F] the part in the tile
 
 
 def clip_to_tiles(geometry: Geometries, band: TileSpan) -> Clipped:

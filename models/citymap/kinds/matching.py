@@ -11,17 +11,11 @@ Conditions = tuple[tuple[str, str], ...]
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """A kind of objects in a city.
+    """A kind of objects in a city."""
 
-    Attributes:
-        id: of the preset, "amenity/fast_food/pizza".
-        name: English, lower case: "pizza fast food".
-        tags: all must match ("*" is any value).
-    """
-
-    id: str
-    name: str
-    tags: Tags
+    id: str  # of the preset, "amenity/fast_food/pizza"
+    name: str  # English, lower case: "pizza fast food"
+    tags: Tags  # all must match ("*" is any value)
 
 
 def specificity_key(kind: Kind) -> tuple[bool, bool, int, str]:

@@ -15,12 +15,7 @@ GZIP_LEVEL = 9
 
 
 class SceneryBlob(NamedTuple):
-    """The content of a part's safetensors file.
-
-    Attributes:
-        tensors: by name.
-        metadata: of the file.
-    """
+    """The content of a part's safetensors file."""
 
     tensors: dict[str, npt.NDArray[Any]]
     metadata: dict[str, str]
@@ -28,14 +23,9 @@ class SceneryBlob(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class SceneryPart:
-    """A file that is sent as it is.
+    """A file that is sent as it is."""
 
-    Attributes:
-        path: of the file, compressed by gzip.
-        sha256: of the file.
-    """
-
-    path: Path
+    path: Path  # compressed by gzip
     sha256: str
 
 

@@ -22,38 +22,23 @@ POINT, LINE, AREA = 0, 1, 2  # the form of an outline
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Outline:
-    """An object of a map.
-
-    Attributes:
-        label: its class.
-        form: POINT, LINE or AREA.
-        width_m: of a line.
-        name: if it has one.
-        paths: [V, 2] each, metres, map frame.
-    """
+    """An object of a map."""
 
     label: str
-    form: int
-    width_m: float
+    form: int  # POINT, LINE or AREA
+    width_m: float  # of a line
     name: str | None
-    paths: list[Floats]
+    paths: list[Floats]  # [V, 2] each, metres, map frame
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DecodedScenery:
-    """The content of a part of scenery: outlines and named points, or scanned points.
+    """The content of a part of scenery: outlines and named points, or scanned points."""
 
-    Attributes:
-        outlines: the topmost first.
-        places: named objects that are drawn as a point.
-        xyz_m: [P, 3].
-        rgb: [P, 3].
-    """
-
-    outlines: list[Outline]
-    places: list[NamedPoint]
-    xyz_m: Floats
-    rgb: npt.NDArray[np.uint8]
+    outlines: list[Outline]  # the topmost first
+    places: list[NamedPoint]  # named objects that are drawn as a point
+    xyz_m: Floats  # [P, 3]
+    rgb: npt.NDArray[np.uint8]  # [P, 3]
 
 
 def read_scenery(path: Path) -> DecodedScenery:

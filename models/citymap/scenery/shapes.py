@@ -23,15 +23,9 @@ PATH_COLUMNS: Final = ("size", "hole")
 
 @dataclass(frozen=True, slots=True)
 class NamedPoint:
-    """A named object that is drawn as a point: a shop, a museum.
+    """A named object that is drawn as a point: a shop, a museum."""
 
-    Attributes:
-        position_m: x, y, map frame.
-        name: the one to show.
-        kind: its kind, in a word.
-    """
-
-    position_m: tuple[float, float]
+    position_m: tuple[float, float]  # x, y, map frame
     name: str
     kind: str
 
@@ -41,18 +35,13 @@ class Outlines:
     """O objects of R paths of V vertices as they are drawn; numbers are decimetres.
 
     Objects are sorted by label, then by position.
-
-    Attributes:
-        labels: the topmost first.
-        names: of objects that have one, by number.
-        tensors: of O: "label" (number in `labels`), "form" (0 point, 1 line, 2 area), "base", "top", "width", "paths"
-            (their number), "source" (OpenStreetMap's number times 4, plus 0 node, 1 way, 2 relation; -1 for none).
-            Of R: "size" (vertices), "hole" (of an area). "steps" [V, 2]: each vertex relative to the one before it, the
-            first to the origin.
     """
 
-    labels: list[str]
-    names: dict[int, str]
+    labels: list[str]  # the topmost first
+    names: dict[int, str]  # by number of the object
+    # [O]: "label" (number in `labels`), "form" (0 point, 1 line, 2 area), "base", "top", "width", "paths" (count),
+    # "source" (OpenStreetMap's number times 4, plus 0 node, 1 way, 2 relation; -1 for none).
+    # [R]: "size" (vertices), "hole" (of an area). [V, 2]: "steps", from the vertex before it, the first from the origin
     tensors: dict[str, npt.NDArray[Any]]
 
     @classmethod
@@ -81,16 +70,12 @@ class Outlines:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DrawnObjects:
-    """O objects as they are drawn.
-
-    Attributes:
-        labels, names: of each.
-        tensors: as of Outlines but for "label" and "steps"; "place" [O] is the rank among all objects, "low" [O, 2] the
-            lowest coordinates in metres, "xy" [V, 2].
-    """
+    """O objects as they are drawn."""
 
     labels: list[str]
     names: list[str | None]
+    # As in `Outlines` without "label" and "steps"; also "place" [O], the rank among all objects, "low" [O, 2], the
+    # lowest coordinates in metres, and "xy" [V, 2]
     tensors: dict[str, npt.NDArray[Any]]
 
     @classmethod

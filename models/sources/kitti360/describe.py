@@ -19,21 +19,13 @@ CUBE_CENTER = 0.5  # of a cube, in its own units
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ReachableParts:
-    """The parts within reach of a position, in units of the cube around it; R rows by instance.
+    """The parts within reach of a position, in units of the cube around it; R rows by instance."""
 
-    Attributes:
-        instance: [R] row in `RawScene.instances`.
-        closest: [R, 3] the point nearest to the position, in space.
-        distance: [R] to that point.
-        center: [R, 3] mean of the points.
-        rgb: [R, 3] float32 mean colour.
-    """
-
-    instance: Ints
-    closest: Floats
-    distance: Floats
-    center: Floats
-    rgb: Floats
+    instance: Ints  # [R] row in `RawScene.instances`
+    closest: Floats  # [R, 3] the point nearest to the position, in space
+    distance: Floats  # [R] to that point
+    center: Floats  # [R, 3] mean of the points
+    rgb: Floats  # [R, 3] float32 mean colour
 
     def __len__(self) -> int:
         return len(self.instance)

@@ -35,19 +35,12 @@ POSE_COLUMNS = 13  # frame and a 3x4 matrix, row by row
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RawScene:
-    """A scene as instances in one frame, thinned by class.
+    """A scene as instances in one frame, thinned by class."""
 
-    Attributes:
-        name: "0003" for the folder "2013_05_28_drive_0003_sync"; any other folder's name as it is.
-        instances: in the order of the tiles; `points_m` float32 [P, 3], `rgb` float32 [P, 3].
-        stuff: labels that are clipped to cells.
-        trajectory_m: [F, 3] float64, world metres, in order of frame.
-    """
-
-    name: str
-    instances: tuple[Instance, ...]
-    stuff: frozenset[str]
-    trajectory_m: Floats
+    name: str  # "0003" for the folder "2013_05_28_drive_0003_sync"; any other folder's name as it is
+    instances: tuple[Instance, ...]  # in the order of the tiles; `points_m` float32 [P, 3], `rgb` float32 [P, 3]
+    stuff: frozenset[str]  # labels that are clipped to cells
+    trajectory_m: Floats  # [F, 3] float64, world metres, in order of frame
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -25,37 +25,24 @@ class RawFile(BaseModel):
 
 
 class Recipe(BaseModel):
-    """Everything that determines the result of a preparation.
-
-    Attributes:
-        format: version of the preparation; it changes when the same raw files would give other cells or poses.
-        scene: name of the scene's files.
-        seed: of the positions.
-        config: every option.
-        raw: the files, by path below the raw data's root.
-    """
+    """Everything that determines the result of a preparation."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", ser_json_inf_nan="constants")
 
     kind: Literal["hereabouts prepared scene"] = "hereabouts prepared scene"
-    format: Literal[1] = 1
+    format: Literal[1] = 1  # changes when the same raw files would give other cells or poses
     scene: str
-    seed: int
-    config: dict[str, Any]
-    raw: dict[str, RawFile]
+    seed: int  # of the positions
+    config: dict[str, Any]  # every option
+    raw: dict[str, RawFile]  # the files, by path below the raw data's root
 
 
 class PreparationRecord(Recipe):
-    """A complete scene.
-
-    Attributes:
-        cells, poses: their numbers.
-        files: size in bytes by path below the root.
-    """
+    """A complete scene."""
 
     cells: int
     poses: int
-    files: dict[str, int]
+    files: dict[str, int]  # bytes by path below the root
 
 
 def build_recipe(raw: Path, folder: str, config: PrepareConfig, seed: int) -> Recipe:

@@ -8,21 +8,13 @@ from models.citymap.types import CutRules
 
 @dataclass(frozen=True, slots=True)
 class ClassRule:
-    """How points of one class become instances (docs/formats.md, rules 1 and 2).
-
-    Attributes:
-        label: class in words.
-        semantic: KITTI-360's number of it.
-        is_stuff: True if clipped to cells, False for things, which are kept whole.
-        voxel_m: one point is kept in each cube of this edge; None keeps all.
-        min_points: an instance with fewer is dropped.
-    """
+    """How points of one class become instances (docs/formats.md, rules 1 and 2)."""
 
     label: str
-    semantic: int
-    is_stuff: bool
-    voxel_m: float | None
-    min_points: int
+    semantic: int  # KITTI-360's number of it
+    is_stuff: bool  # True if clipped to cells, False for things, which are kept whole
+    voxel_m: float | None  # one point is kept in each cube of this edge; None keeps all
+    min_points: int  # an instance with fewer is dropped
 
 
 # In the order of instances within a tile.
@@ -55,30 +47,16 @@ GROUND = frozenset({"road", "sidewalk", "parking", "terrain"})
 
 @dataclass(frozen=True, slots=True)
 class PrepareConfig:
-    """Every option of the preparation; the defaults are the released set's.
+    """Every option of the preparation; the defaults are the released set's."""
 
-    Attributes:
-        classes: which points are kept, and how (rules 1 and 2).
-        spacing_m: least distance between locations (rule 3).
-        thing_reach_m: a location farther from every thing is left out (rule 3).
-        cut: how cells are cut, and the cube around a position (rule 4).
-        copies: positions for each location (rule 5).
-        shift_divisor: a position is moved by up to the cell's size over this, in x and in y (rule 5).
-        best_cell_reach_m: a position farther from every cell's centre is left out (rule 5).
-        strategies: how hints are chosen; each gives a description (rule 5).
-        num_hints: hints in a description; a position with fewer instances in reach is left out.
-        hint_reach_m: instances farther away are not mentioned (rule 5).
-        on_top_share: nearer than this share of a cell is "on-top" (rule 6).
-    """
-
-    classes: tuple[ClassRule, ...] = CLASSES
-    spacing_m: float = 10.0
-    thing_reach_m: float = 15.0
-    cut: CutRules = field(default_factory=CutRules)
-    copies: int = 4
-    shift_divisor: float = 2.1
-    best_cell_reach_m: float = 15.0
-    strategies: tuple[Strategy, ...] = STRATEGIES
-    num_hints: int = 6
-    hint_reach_m: float = 15.0
-    on_top_share: float = 0.05
+    classes: tuple[ClassRule, ...] = CLASSES  # which points are kept, and how (rules 1 and 2)
+    spacing_m: float = 10.0  # least distance between locations (rule 3)
+    thing_reach_m: float = 15.0  # a location farther from every thing is left out (rule 3)
+    cut: CutRules = field(default_factory=CutRules)  # how cells are cut, and the cube around a position (rule 4)
+    copies: int = 4  # positions for each location (rule 5)
+    shift_divisor: float = 2.1  # a position is moved by up to the cell's size over this, in x and in y (rule 5)
+    best_cell_reach_m: float = 15.0  # a position farther from every cell's centre is left out (rule 5)
+    strategies: tuple[Strategy, ...] = STRATEGIES  # how hints are chosen; each gives a description (rule 5)
+    num_hints: int = 6  # hints in a description; a position with fewer instances in reach is left out
+    hint_reach_m: float = 15.0  # instances farther away are not mentioned (rule 5)
+    on_top_share: float = 0.05  # nearer than this share of a cell is "on-top" (rule 6)

@@ -21,17 +21,11 @@ class RefusedPickle(ValueError):
 
 @dataclass(slots=True, eq=False)
 class PickledRecord:
-    """A stand-in for an object of the reference package.
+    """A stand-in for an object of the reference package."""
 
-    Attributes:
-        kind: name of its class.
-        fields: its attributes.
-        is_listed: whether a list already holds it; a pickle of a few bytes can refer to one object a million times.
-    """
-
-    kind: str
+    kind: str  # name of its class
     fields: dict[str, Any] = field(default_factory=dict)
-    is_listed: bool = False
+    is_listed: bool = False  # whether a list holds it; a few bytes can refer to one object a million times
 
 
 @dataclass(frozen=True, slots=True)

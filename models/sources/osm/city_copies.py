@@ -23,13 +23,9 @@ class CopyGrid:
     """The layout of the copies: row by row from the south-west, copy 0 where the extract is.
 
     The last row may be shorter.
-
-    Attributes:
-        box: west, south, east, north of one copy, in units of 1e-7 degrees.
-        copies: their number.
     """
 
-    box: Box
+    box: Box  # west, south, east, north of one copy, in units of 1e-7 degrees
     copies: int
 
     @property
@@ -77,18 +73,11 @@ class CopyGrid:
 
 @dataclass(frozen=True, slots=True)
 class CityExtract:
-    """An extract to be copied.
-
-    Attributes:
-        path: of the file.
-        box: of the file's header and all nodes together, in units of 1e-7 degrees; a file without a box gets a margin.
-        numbers: by osmium's letter, the span of the ids in the file, by which each copy's ids are shifted.
-        names: of its elements.
-    """
+    """An extract to be copied."""
 
     path: Path
-    box: Box
-    numbers: dict[str, int]
+    box: Box  # of header and nodes, in units of 1e-7 degrees; a file without a box gets a margin
+    numbers: dict[str, int]  # span of the ids by osmium's letter; each copy's ids are shifted by it
     names: ExtractNames
 
     @classmethod

@@ -34,14 +34,10 @@ Kind = tuple[str, str]
 
 @dataclass(frozen=True, slots=True)
 class ExtractNames:
-    """The names of an extract, collected element by element.
+    """The names of an extract, collected element by element."""
 
-    Attributes:
-        streets: names of streets in lower case, also those that only addresses have; each has a number.
-        things: by kind (main key and value) the name tags of each object that is not a street.
-    """
-
-    streets: dict[str, int] = field(default_factory=dict)
+    streets: dict[str, int] = field(default_factory=dict)  # numbers of streets by name in lower case
+    # Name tags of other objects, by kind (main key and value)
     things: dict[Kind, dict[Element, Tags]] = field(default_factory=dict)
 
     def add(self, element: Element, tags: Mapping[str, str]) -> None:
@@ -70,17 +66,11 @@ class ExtractNames:
 
 @dataclass(frozen=True, slots=True)
 class CopyNames:
-    """The names in a copy.
+    """The names in a copy."""
 
-    Attributes:
-        names: of the extract.
-        copy: its number, from 1.
-        swapped: the name tags of each object in this copy.
-    """
-
-    names: ExtractNames
-    copy: int
-    swapped: dict[Element, Tags]
+    names: ExtractNames  # of the extract
+    copy: int  # its number, from 1
+    swapped: dict[Element, Tags]  # the name tags of each object in this copy
 
     def tags(self, element: Element, tags: Tags) -> Tags:
         """Return the tags of an element in this copy; `element` is as in the extract."""

@@ -19,13 +19,9 @@ REGION_FORMS = "give west,south,east,north in degrees, or a GeoJSON file with a 
 
 @dataclass(frozen=True, slots=True)
 class Region:
-    """A part of the Earth.
+    """A part of the Earth."""
 
-    Attributes:
-        shape: in degrees, longitude first.
-    """
-
-    shape: shapely.Geometry
+    shape: shapely.Geometry  # in degrees, longitude first
 
     @classmethod
     def parse(cls, text: str) -> "Region":

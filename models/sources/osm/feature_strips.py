@@ -25,17 +25,11 @@ UPRIGHT_SHAPE: Final = "column"
 
 @dataclass(frozen=True, slots=True)
 class NumberedFeature:
-    """A feature and its number.
+    """A feature and its number."""
 
-    Attributes:
-        number: in the order in which features were read.
-        feature: the feature.
-        is_owned: whether this strip is the first that it spans, and so draws it.
-    """
-
-    number: int
+    number: int  # in the order in which features were read
     feature: Feature
-    is_owned: bool
+    is_owned: bool  # whether this strip is the first that it spans, and so draws it
 
 
 class FeatureStrips:
@@ -99,17 +93,11 @@ class FeatureStrips:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FeatureInstances:
-    """The features that make up each instance; instances are numbered in order of their first features.
+    """The features that make up each instance; instances are numbered in order of their first features."""
 
-    Attributes:
-        feature_instance: [N] instance of each feature, by its number; -1 if it is left out.
-        first: [I] number of the first feature of each.
-        rank: [N] place of each feature, by its number, in order of classes, then as they were read.
-    """
-
-    feature_instance: Ints
-    first: Ints
-    rank: Ints
+    feature_instance: Ints  # [N] instance of each feature, by its number; -1 if it is left out
+    first: Ints  # [I] number of the first feature of each
+    rank: Ints  # [N] place of each feature, by its number, in order of classes, then as they were read
 
     @classmethod
     def join(cls, strips: FeatureStrips) -> "FeatureInstances":

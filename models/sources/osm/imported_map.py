@@ -25,23 +25,14 @@ UNKNOWN_RGB: Final = (np.nan, np.nan, np.nan)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _ImportedStrip:
-    """The results of a strip.
-
-    Attributes:
-        rows: its pieces.
-        drawing: the features that it owns.
-        instance: [n] the instances whose first features are among these.
-        names: [n] of the instances.
-        sources: [n] of the instances.
-        rgb: [n, 3] of the instances.
-    """
+    """The results of a strip."""
 
     rows: PieceRows
-    drawing: DrawnObjects
-    instance: Ints
-    names: list[str | None]
-    sources: npt.NDArray[np.bytes_]
-    rgb: Floats
+    drawing: DrawnObjects  # the features that it owns
+    instance: Ints  # [n] the instances whose first features are among these
+    names: list[str | None]  # [n] of the instances
+    sources: npt.NDArray[np.bytes_]  # [n] of the instances
+    rgb: Floats  # [n, 3] of the instances
 
 
 def _import_strip(strips: FeatureStrips, instances: FeatureInstances, number: int) -> _ImportedStrip:
@@ -74,17 +65,10 @@ def _shape(feature: Feature) -> MapShape:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ImportedMap:
-    """An imported map.
+    """An imported map."""
 
-    Attributes:
-        instances: those with pieces; others are fully covered.
-        is_walkable: [I] whether a person can stand there.
-        pieces: all pieces.
-        outlines: all outlines.
-    """
-
-    instances: InstanceTable
-    is_walkable: npt.NDArray[np.bool_]
+    instances: InstanceTable  # those with pieces; others are fully covered
+    is_walkable: npt.NDArray[np.bool_]  # [I] whether a person can stand there
     pieces: PieceTable
     outlines: Outlines
 

@@ -28,18 +28,12 @@ from models.sources.store.pose_table import PoseTable
 
 @dataclass(frozen=True, slots=True)
 class StoredScene:
-    """A scene of a store.
+    """A scene of a store."""
 
-    Attributes:
-        name: of its files, for example "2013_05_28_drive_0003_sync".
-        scene_name: of its cells, for example "0003".
-        cells, poses: their numbers; poses is None if there was no file of poses.
-    """
-
-    name: str
-    scene_name: str
+    name: str  # of its files, for example "2013_05_28_drive_0003_sync"
+    scene_name: str  # of its cells, for example "0003"
     cells: int
-    poses: int | None
+    poses: int | None  # None if there was no file of poses
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,23 +42,16 @@ class PoseStore:
 
     Rows count within this view: cell row n is `cell_table().ids[n]`, instance row r is row r of its parts, pose row q
     is row q of `poses`.
-
-    Attributes:
-        source: the path, for messages.
-        scenes: in order.
-        columns: of the whole data set (models.sources.store.layout).
-        words, all_cell_ids: of the whole data set.
-        cell_rows, pose_rows: [N], [Q] rows of the whole data set in this view.
     """
 
     source: Path
-    scenes: tuple[StoredScene, ...]
-    columns: Mapping[str, Column]
-    words: tuple[str, ...]
-    all_cell_ids: tuple[str, ...]
+    scenes: tuple[StoredScene, ...]  # in order
+    columns: Mapping[str, Column]  # of the whole data set (models.sources.store.layout)
+    words: tuple[str, ...]  # of the whole data set
+    all_cell_ids: tuple[str, ...]  # of the whole data set
     all_scenes: tuple[StoredScene, ...]
-    cell_rows: Ints
-    pose_rows: Ints
+    cell_rows: Ints  # [N] rows of the whole data set in this view
+    pose_rows: Ints  # [Q] likewise
 
     @classmethod
     def whole(

@@ -8,28 +8,17 @@ from models.citymap.types import DIRECTIONS, Floats, Hint
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PoseTable:
-    """Q positions with their descriptions, in columns.
+    """Q positions with their descriptions, in columns."""
 
-    Attributes:
-        positions_m: [Q, 3] float64 world metres.
-        cell: [Q] best cell, row in the store's cell table.
-        strategies: Q words: how the hints were chosen.
-        starts: [Q + 1] pose q has the hints starts[q] to starts[q + 1].
-        direction: [H] index into DIRECTIONS.
-        label, colour: [H] index into `words`.
-        instance: [H] the instance meant, row in the cell table's parts; -1 if the best cell lacks it.
-        words: labels and colours.
-    """
-
-    positions_m: Floats
-    cell: Ints
-    strategies: tuple[str, ...]
-    starts: Ints
-    direction: Ints
-    label: Ints
-    colour: Ints
-    instance: Ints
-    words: tuple[str, ...]
+    positions_m: Floats  # [Q, 3] float64 world metres
+    cell: Ints  # [Q] best cell, row in the store's cell table
+    strategies: tuple[str, ...]  # Q words: how the hints were chosen
+    starts: Ints  # [Q + 1] pose q has the hints starts[q] to starts[q + 1]
+    direction: Ints  # [H] index into DIRECTIONS
+    label: Ints  # [H] index into `words`
+    colour: Ints  # [H] index into `words`
+    instance: Ints  # [H] the instance meant, row in the cell table's parts; -1 if the best cell lacks it
+    words: tuple[str, ...]  # labels and colours
 
     def __len__(self) -> int:
         return len(self.cell)

@@ -18,21 +18,13 @@ Node = tuple[int, int]
 
 
 class Line(NamedTuple):
-    """A street from one end of the plan to the other.
+    """A street from one end of the plan to the other."""
 
-    Attributes:
-        position_m: where it crosses the other axis.
-        road_m: width of its carriageway.
-        strip_m: width, on each side, of parking bays or grass.
-        sidewalk_m: width, on each side.
-        is_main: true for a through street.
-    """
-
-    position_m: float
-    road_m: float
-    strip_m: float
-    sidewalk_m: float
-    is_main: bool
+    position_m: float  # where it crosses the other axis
+    road_m: float  # width of its carriageway
+    strip_m: float  # width, on each side, of parking bays or grass
+    sidewalk_m: float  # width, on each side
+    is_main: bool  # true for a through street
 
     @property
     def reach_m(self) -> float:
@@ -42,19 +34,12 @@ class Line(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Plan:
-    """A grid of streets.
+    """A grid of streets."""
 
-    Attributes:
-        east: streets that cross the first axis, and run along the second.
-        north: streets that cross the second axis, and run along the first.
-        along_u: [N, E - 1] bool, where the street north[n] is open between east[e] and the next.
-        along_v: [E, N - 1] bool, where the street east[e] is open between north[n] and the next.
-    """
-
-    east: tuple[Line, ...]
-    north: tuple[Line, ...]
-    along_u: npt.NDArray[np.bool_]
-    along_v: npt.NDArray[np.bool_]
+    east: tuple[Line, ...]  # streets that cross the first axis, and run along the second
+    north: tuple[Line, ...]  # streets that cross the second axis, and run along the first
+    along_u: npt.NDArray[np.bool_]  # [N, E - 1] bool, where the street north[n] is open between east[e] and the next
+    along_v: npt.NDArray[np.bool_]  # [E, N - 1] bool, where the street east[e] is open between north[n] and the next
 
     def is_open(self, a: Node, b: Node) -> bool:
         """Whether a street leads from a crossing to its neighbour."""
@@ -96,23 +81,14 @@ def _line(rng: Rng, style: Style, place_m: float) -> Line:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Land:
-    """The map from the plan to the world.
+    """The map from the plan to the world."""
 
-    Attributes:
-        sway: [S, 2, 3] waves of the plan's axes: amplitude m, wave number 1/m, phase.
-        curvature: 1/m, by which the first axis is bent into a circle; 0 for straight.
-        turn: [2, 2] rotation.
-        origin_m: [3] position of the plan's middle.
-        hills: [W, 4] amplitude m, two wave numbers 1/m, phase.
-        slope: [2] metres per metre.
-    """
-
-    sway: Floats
-    curvature: float
-    turn: Floats
-    origin_m: Floats
-    hills: Floats
-    slope: Floats
+    sway: Floats  # [S, 2, 3] waves of the plan's axes: amplitude m, wave number 1/m, phase
+    curvature: float  # 1/m, by which the first axis is bent into a circle; 0 for straight
+    turn: Floats  # [2, 2] rotation
+    origin_m: Floats  # [3] position of the plan's middle
+    hills: Floats  # [W, 4] amplitude m, two wave numbers 1/m, phase
+    slope: Floats  # [2] metres per metre
 
     def to_world(self, plan: Floats) -> Floats:
         """Return world metres [P, 3] of points of the plan, [P, 3] with heights above the ground."""

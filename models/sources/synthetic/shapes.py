@@ -15,19 +15,13 @@ Rng = np.random.Generator
 
 
 class LocalFrame(NamedTuple):
-    """A position in a town's plan, and a direction there.
+    """A position in a town's plan, and a direction there."""
 
-    Attributes:
-        u, v: the position, metres, plan frame.
-        cos, sin: of the angle from the plan's first axis to the frame's x axis.
-        flip: -1 where the frame's y axis lies to the right of its x axis, else 1.
-    """
-
-    u: float
+    u: float  # metres, plan frame
     v: float
-    cos: float = 1.0
+    cos: float = 1.0  # of the angle from the plan's first axis to the frame's x axis
     sin: float = 0.0
-    flip: float = 1.0
+    flip: float = 1.0  # -1 where the frame's y axis lies to the right of its x axis, else 1
 
     def to_plan(self, xyz: Floats) -> Floats:
         """Return points [P, 3] of this frame in the plan's frame."""

@@ -22,20 +22,13 @@ INSTANCES_PER_CLASS = 1000  # instances a class, as KITTI-360 counts them
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Scan:
-    """All points of a town.
+    """All points of a town."""
 
-    Attributes:
-        xyz: [P, 3] float32, world metres.
-        rgb: [P, 3] uint8.
-        semantic, instance: [P] int32, KITTI-360's numbers.
-        pose: [P] int32, the nearest pose of the drive.
-    """
-
-    xyz: Floats
-    rgb: npt.NDArray[np.uint8]
-    semantic: Ints
-    instance: Ints
-    pose: Ints
+    xyz: Floats  # [P, 3] float32, world metres
+    rgb: npt.NDArray[np.uint8]  # [P, 3] uint8
+    semantic: Ints  # [P] int32, KITTI-360's numbers
+    instance: Ints  # [P] int32, KITTI-360's numbers
+    pose: Ints  # [P] int32, the nearest pose of the drive
 
 
 class Site:

@@ -38,30 +38,18 @@ COLOUR_WEIGHTS: dict[str, tuple[float, ...]] = {
 
 @dataclass(frozen=True, slots=True)
 class Style:
-    """A type of town. Pairs are least and greatest values, of which each town or street draws its own.
+    """A type of town. Pairs are least and greatest values, of which each town or street draws its own."""
 
-    Attributes:
-        lots: how often a block is of a kind (`lots.LOT_KINDS`).
-        block_m: between streets.
-        road_m: width of the carriageway; a main street's is half as much again.
-        sidewalk_m: width.
-        missing: share of the streets between two crossings that are left out.
-        bend: greatest slope by which streets deviate from a straight line.
-        fan: true if all streets bend the same way, as around a centre.
-        relief_m: height of its hills.
-        parking, verge: share of street sides with bays, with a strip of grass.
-    """
-
-    lots: dict[str, float]
-    block_m: tuple[float, float]
-    road_m: tuple[float, float]
-    sidewalk_m: tuple[float, float]
-    missing: float
-    bend: float
-    fan: bool
-    relief_m: float
-    parking: float
-    verge: float
+    lots: dict[str, float]  # how often a block is of a kind (`lots.LOT_KINDS`)
+    block_m: tuple[float, float]  # between streets
+    road_m: tuple[float, float]  # width of the carriageway; a main street's is half as much again
+    sidewalk_m: tuple[float, float]  # width
+    missing: float  # share of the streets between two crossings that are left out
+    bend: float  # greatest slope by which streets deviate from a straight line
+    fan: bool  # true if all streets bend the same way, as around a centre
+    relief_m: float  # height of its hills
+    parking: float  # share of street sides with bays
+    verge: float  # share of street sides with a strip of grass
 
 
 STYLES: dict[str, Style] = {
@@ -94,22 +82,14 @@ STYLES: dict[str, Style] = {
 
 @dataclass(frozen=True, slots=True)
 class Habits:
-    """The random parameters of one town.
+    """The random parameters of one town."""
 
-    Attributes:
-        lots: as in the style, perturbed.
-        rates: factor on how often an object occurs: a class of furniture, or "tree", "hedge",
-            "fence", "wall", "garage", "bush".
-        spacing_m: between the points of well-scanned surfaces.
-        colours: [21, 8] how often a class has each centre of the palette, in order of `CLASSES`.
-        exposure: factor on all colours.
-    """
-
-    lots: dict[str, float]
+    lots: dict[str, float]  # as in the style, perturbed
+    # Factor on how often an object occurs: a class of furniture, or "tree", "hedge", "fence", "wall", "garage", "bush"
     rates: dict[str, float]
-    spacing_m: float
-    colours: Floats
-    exposure: float
+    spacing_m: float  # between the points of well-scanned surfaces
+    colours: Floats  # [21, 8] how often a class has each centre of the palette, in order of `CLASSES`
+    exposure: float  # factor on all colours
 
     def rate(self, kind: str, usual: float) -> float:
         """Return how often an object occurs here, given its usual rate."""

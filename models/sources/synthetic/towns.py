@@ -48,15 +48,10 @@ POINT += [("semantic", "<i4"), ("instance", "<i4"), ("visible", "u1"), ("confide
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Town:
-    """A synthetic town as it would have been scanned.
-
-    Attributes:
-        scan: its points.
-        drive_m: [F, 3] float64 poses about a metre apart, world metres.
-    """
+    """A synthetic town as it would have been scanned."""
 
     scan: Scan
-    drive_m: Floats
+    drive_m: Floats  # [F, 3] float64 poses about a metre apart, world metres
 
 
 def write_towns(
