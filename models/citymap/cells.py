@@ -1,7 +1,7 @@
 """Cut a map into cells: the instances, whole or clipped, inside cubes around given centres.
 
-One function cuts both the cells of the grid and the cell around a pose from which its hints are made
-(docs/formats.md, rules 4 and 5). Work is vectorised over points; Python loops over cubes only.
+The same code cuts the cells of the grid and the cube around a pose from which its hints are made (docs/formats.md,
+rules 4 and 5).
 """
 
 from collections.abc import Callable, Sequence
@@ -121,14 +121,7 @@ def centers_within_reach(grid_m: Floats, locations_m: Floats, reach_m: float) ->
 def cut_cubes(
     points: PointTable, centers_m: Floats, rules: CutRules, progress: Callable[[int, int], None] | None = None
 ) -> PartTable:
-    """Cut the cubes around some centres, in several processes if there are many.
-
-    Args:
-        points: the map's points.
-        centers_m: [N, 3] centres, metres; for hints, the position of the pose.
-        rules: size of the cubes and how to clip.
-        progress: called with (cubes cut, cubes to cut).
-    """
+    """Cut the cubes around centres [N, 3], in several processes if there are many; `progress` gets (cubes cut, N)."""
     done, results = 0, []
     chunks = [centers_m[i : i + CUBES_PER_TASK] for i in range(0, len(centers_m), CUBES_PER_TASK)]
     for result in map_forked(partial(_cut_chunk, points, rules), chunks):
@@ -215,15 +208,9 @@ def _unordered_parts(points: PointTable, center: Floats, rules: CutRules) -> lis
 
 
 def _dbscan(points: PointTable, rows: Ints, min_samples: int) -> Ints:
-    """Return DBSCAN labels of some points, numbered as by scikit-learn, from the table's neighbour pairs.
+    """Return DBSCAN labels [M] of ascending point rows, numbered as by scikit-learn; -1 for noise.
 
-    Args:
-        points: the table.
-        rows: [M] ascending point rows; neighbours outside of them do not count.
-        min_samples: number of neighbours within eps, including the point itself, that makes a core point.
-
-    Returns:
-        [M] cluster of each row, -1 for noise. A cluster never crosses from one instance to another.
+    Only neighbours among these rows count. A cluster never crosses from one instance to another.
     """
     source, target = _neighbour_pairs_among(points, rows)
     degree = 1 + np.bincount(source, minlength=len(rows)) + np.bincount(target, minlength=len(rows))

@@ -19,14 +19,7 @@ class Palette:
     centers: tuple[tuple[float, float, float], ...]
 
     def word_index(self, rgb: npt.NDArray[np.floating[Any]]) -> npt.NDArray[np.intp]:
-        """Return the index of the nearest centre by Euclidean distance.
-
-        Args:
-            rgb: [..., 3] in 0..1; NaN for unknown.
-
-        Returns:
-            [...] index into `words`, -1 where a channel is NaN.
-        """
+        """Return the index [...] of the centre nearest to rgb [..., 3] in 0..1; -1 where a channel is NaN (unknown)."""
         centers, shape = np.asarray(self.centers).T / 255.0, np.shape(rgb)[:-1]
         flat = np.reshape(rgb, (-1, 3))
         nearest = np.empty(len(flat), np.intp)
@@ -95,11 +88,7 @@ MATERIAL_RGB: dict[str, tuple[int, int, int]] = {
 
 
 def parse_colour(text: str) -> tuple[float, float, float] | None:
-    """Return the rgb (0..1) of a colour as mappers write it: "#cd7f32", "brown", "light_grey", "white;red" (the first).
-
-    Returns:
-        None for a colour that cannot be parsed; one unusable tag is no reason to refuse a map.
-    """
+    """Return the rgb (0..1) of a mapped colour ("#cd7f32", "light_grey", "white;red"), or None if it is unusable."""
     first = text.split(";", maxsplit=1)[0].strip().lower().replace("_", "").replace(" ", "")
     try:
         red, green, blue = ImageColor.getrgb(first)[:3]

@@ -28,29 +28,17 @@ class Frame:
         return self.origin_lat is not None and self.origin_lon is not None
 
     def position_m(self, position: tuple[float, float], crs: Literal["map", "wgs84"]) -> Floats:
-        """Return a position [2] in metres, given as (x, y), or as (lon, lat) with crs "wgs84".
-
-        Raises:
-            ValueError: as `from_wgs84`.
-        """
+        """Return a position [2] in metres, given as (x, y), or (lon, lat) with crs "wgs84"; errors as `from_wgs84`."""
         return np.asarray(position, np.float64) if crs == "map" else self.from_wgs84(position[1], position[0])
 
     def from_wgs84(self, lat: Floats | float, lon: Floats | float) -> Floats:
-        """Return metres (east, north) [..., 2] for WGS84 degrees.
-
-        Raises:
-            ValueError: the map has no georeference.
-        """
+        """Return metres (east, north) [..., 2] for WGS84 degrees; raise ValueError if the map has no georeference."""
         transformer, easting, northing = self._projection()
         x, y = transformer.transform(lon, lat)
         return np.stack([np.asarray(x) - easting, np.asarray(y) - northing], axis=-1)
 
     def to_wgs84(self, position_m: Floats) -> tuple[Floats, Floats]:
-        """Return (lat, lon) in degrees for positions [..., 2 or 3] in metres.
-
-        Raises:
-            ValueError: the map has no georeference.
-        """
+        """Return (lat, lon) in degrees for positions [..., 2 or 3] in metres; errors as `from_wgs84`."""
         transformer, easting, northing = self._projection()
         position = np.asarray(position_m, dtype=np.float64)
         lon, lat = transformer.transform(position[..., 0] + easting, position[..., 1] + northing, direction="INVERSE")

@@ -73,14 +73,9 @@ class Gallery:
 
     @classmethod
     def load(cls, directory: Path, cut: Callable[[Ints], PartTable] | None = None) -> "Gallery":
-        """Read the files that `save` wrote.
+        """Read the files that `save` wrote; raise IndexBroken if they do not hold a gallery.
 
-        Args:
-            directory: the folder.
-            cut: cuts the parts of given cells, if they were left out.
-
-        Raises:
-            IndexBroken: the files do not hold a gallery.
+        `cut` cuts the parts of given cells, if they were left out.
         """
         try:
             arrays = map_arrays(directory / CELLS_FILE)[0]
@@ -97,12 +92,7 @@ class Gallery:
 
 
 class NumberedCellIds(Sequence[str]):
-    """The ids of the cells of one scene, made on access: a city has a million.
-
-    Args:
-        scene: its name.
-        count: number of cells.
-    """
+    """The ids of the cells of one scene, made on access: a city has a million."""
 
     def __init__(self, scene: str, count: int) -> None:
         self._scene, self._count = scene, count

@@ -22,14 +22,9 @@ ON_TOP_M = 1.5  # 0.05 of a 30 m cell (rule 6)
 
 
 def direction_index(offset_m: Floats, on_top_m: float = ON_TOP_M) -> npt.NDArray[np.intp]:
-    """Return the direction of positions as seen from instances (docs/formats.md, rule 6).
+    """Return the index [...] into DIRECTIONS of positions as seen from instances (docs/formats.md, rule 6).
 
-    Args:
-        offset_m: [..., 2 or 3] position minus the instance's closest point, metres.
-        on_top_m: nearer than this, in the plane, is "on-top"; in the unit of the offset.
-
-    Returns:
-        [...] index into DIRECTIONS.
+    Offsets [..., 2 or 3] are the position minus the instance's closest point; nearer than `on_top_m` is "on-top".
     """
     x, y = np.asarray(offset_m)[..., 0], np.asarray(offset_m)[..., 1]
     north_south = np.where(y > 0, 0, 1)
@@ -49,13 +44,7 @@ class HintTable:
 
 
 def build_hint_table(palette: Palette, parts: PartTable, positions_m: Floats) -> HintTable:
-    """Build the table of all hints that are true at some positions.
-
-    Args:
-        palette: the colour words.
-        parts: the cubes around the positions (`MapGeometry.cut`).
-        positions_m: [N, 3] metres.
-    """
+    """Build the table of all hints that are true at positions [N, 3], from the parts in the cubes around them."""
     cube = parts.cube
     offset = positions_m[cube] - parts.closest_m
     distance = np.hypot(offset[:, 0], offset[:, 1])
@@ -73,15 +62,9 @@ def build_hint_table(palette: Palette, parts: PartTable, positions_m: Floats) ->
 def choose_hints(
     table: HintTable, n: int, labels: npt.NDArray[Any], strategy: Strategy, count: int
 ) -> npt.NDArray[Any]:
-    """Return the rows of the hints that one strategy picks at position n.
+    """Return the rows of at most `count` hints that one strategy picks at position n, given labels [I] of instances.
 
-    Args:
-        table: all hints.
-        n: the position.
-        labels: [I] label number of each instance.
-        strategy: "closest" takes the nearest; "class" and "direction" take the nearest of each class or
-            direction in turn, so that the hints differ.
-        count: hints to pick; fewer if there are fewer.
+    "closest" takes the nearest; "class" and "direction" take the nearest of each in turn, so that the hints differ.
     """
     rows = np.arange(table.starts[n], table.starts[n + 1])
     if strategy == "closest":
@@ -113,18 +96,10 @@ def sample_positions(locations_m: Floats, spacing_m: float, rng: np.random.Gener
 def describe_poses(
     city_map: CityMap, geometry: MapGeometry, cells: CellTable, positions_m: Floats, num_hints: int = NUM_HINTS
 ) -> list[Pose]:
-    """Return poses with descriptions at some positions, by each strategy (docs/formats.md, rule 5).
+    """Return poses with descriptions at positions [N, 3], by each strategy (docs/formats.md, rule 5).
 
-    Args:
-        city_map: the map.
-        geometry: its geometry.
-        cells: the gallery; a position without a cell centre within 15 m is left out.
-        positions_m: [N, 3] metres.
-        num_hints: hints in a description; a position with fewer instances around it is left out.
-
-    Returns:
-        Poses in order of position, then strategy; a description that mentions the same instances as
-        another of the same position is dropped.
+    Poses are in order of position, then strategy. A position without a cell centre within 15 m, or with fewer than
+    `num_hints` instances around it, is left out; so is a description of the same instances as another.
     """
     distance, best = cKDTree(cells.center_m).query(positions_m)
     reachable = np.flatnonzero(distance <= BEST_CELL_REACH_M)

@@ -120,13 +120,7 @@ def build_geometry(city_map: CityMap) -> MapGeometry:
 def cut_cells(city_map: CityMap, geometry: MapGeometry, progress: CutProgress | None = None) -> CellTable:
     """Cut a map into overlapping cells on a grid over its locations (docs/formats.md, rule 4).
 
-    Args:
-        city_map: the map.
-        geometry: its geometry.
-        progress: called with (cells cut, cells to cut).
-
-    Raises:
-        MapError: no cell has enough instances.
+    `progress` gets (cells cut, cells to cut). Raise MapError if no cell has enough instances.
     """
     rules = city_map.rules
     centers = grid_centers(city_map.locations_m, rules)

@@ -16,12 +16,8 @@ Sampler = Callable[[npt.NDArray[np.integer[Any]]], Floats]
 def sample_points(xyz: Floats, rgb: Floats) -> Floats:
     """Return a sample [256, 6] (float32) of a part: position and colour of points spread evenly over their list.
 
-    Positions are relative to the middle of the part and scaled so that the farthest of all its points is at 1.
-    A short list repeats points.
-
-    Args:
-        xyz: [P, 3] any unit.
-        rgb: [P, 3] 0..1; NaN, for unknown, becomes -1.
+    Positions are relative to the middle of the part and scaled so that the farthest of all its points is at 1. A short
+    list repeats points. Unknown colours (NaN) become -1.
     """
     middle = (xyz.min(axis=0) + xyz.max(axis=0)) / 2
     reach = float(np.linalg.norm(xyz - middle, axis=1).max())

@@ -58,12 +58,7 @@ class PointTable:
         return self.instance_rgb[self.instance[rows]] if self.rgb is None else self.rgb[rows]
 
     def inside(self, low: Floats, high: Floats) -> Ints:
-        """Return the rows of the points in a box, ascending.
-
-        Args:
-            low: [3] south-west and lowest corner, metres; it belongs to the box.
-            high: [3] the opposite corner; it belongs to the box, too.
-        """
+        """Return the rows, ascending, of the points in a box between two corners [3], which belong to the box."""
         first = np.floor(low[:2] / INDEX_TILE_M).astype(np.int64)
         last = np.floor(high[:2] / INDEX_TILE_M).astype(np.int64)
         columns = np.arange(first[0], last[0] + 1)
@@ -111,12 +106,7 @@ def block_keys(points: Floats, spacing_m: float) -> Ints:
 
 
 def first_in_voxel(xyz: Floats, voxel_m: float) -> Ints:
-    """Return the rows, ascending, of the first point in each voxel.
-
-    Args:
-        xyz: [P, 3] metres.
-        voxel_m: edge of the voxels; the lowest corner of the points is in the middle of one.
-    """
+    """Return the rows, ascending, of the first point in each voxel; the lowest corner is in the middle of one."""
     exact = xyz.astype(np.float64)
     voxel = np.floor((exact - (exact.min(axis=0) - voxel_m / 2)) / voxel_m)
     order = np.lexsort(voxel.T)

@@ -29,13 +29,7 @@ class Queries:
 
     @classmethod
     def from_text(cls, sentences: Sequence[tuple[str, ...]], positions_m: Floats, cells: CellTable) -> "Queries":
-        """Build queries from texts; the best cell is the one whose centre is nearest to the position.
-
-        Args:
-            sentences: each description's hint sentences.
-            positions_m: [Q, 2] the positions described, map frame.
-            cells: the gallery.
-        """
+        """Build queries from texts and the positions [Q, 2] described; the best cell has the nearest centre."""
         distance, nearest = cKDTree(cells.center_m[:, :2]).query(positions_m)
         scenes = [cells.scenes[n] for n in nearest]
         truth = np.where(distance <= BEST_CELL_REACH_M, nearest, -1)

@@ -38,11 +38,7 @@ class SplitRegion:
 
 
 def split_regions(cells: CellTable) -> dict[str, SplitRegion]:
-    """Return a western region for training, a middle strip for validation and an eastern region for testing.
-
-    Args:
-        cells: all cells of the map, whose extent is split.
-    """
+    """Return a western region for training, a middle strip for validation and an eastern region for testing."""
     half = cells.size_m / 2
     west, east = float(cells.center_m[:, 0].min()) - half, float(cells.center_m[:, 0].max()) + half + 1e-6
     width = east - west

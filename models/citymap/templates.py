@@ -36,12 +36,7 @@ ON_TOP_TEMPLATES: Final[tuple[str, ...]] = (
 
 
 def render_hint(hint: Hint, template: int = 0) -> str:
-    """Return a hint as an English sentence.
-
-    Args:
-        hint: the hint; without a colour, the sentence has none.
-        template: index into TEMPLATES.
-    """
+    """Return a hint as an English sentence, in the wording of an index into TEMPLATES."""
     noun = f"{hint.colour} {hint.label}" if hint.colour else hint.label
     # The benchmark writes "a" before any word; the other wordings are correct English.
     article = "an" if template and noun[0] in "aeiou" else "a"

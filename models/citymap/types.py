@@ -1,7 +1,6 @@
 """The basic types of a map: Instance, MapShape, CityMap, Pose, Hint, Description.
 
-Coordinates are metres in the map's frame (east, north, up) unless a name says `offset`, which is a
-position inside a cell in 0..1.
+Coordinates are metres in the map's frame (east, north, up); an `offset` is a position inside a cell in 0..1.
 """
 
 from collections.abc import Callable, Sequence

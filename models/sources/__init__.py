@@ -1,4 +1,1 @@
-"""Sources of maps and descriptions: a folder for each.
-
-`source.open_source` is the single entry point to data, for indexing, training and evaluation.
-"""
+"""Sources of maps and descriptions, a folder for each; `source.open_source` is the single entry point to data."""

@@ -25,13 +25,9 @@ class PlaceText:
 
 
 def load_place_texts(path: Path) -> list[PlaceText]:
-    """Read texts, one JSON object a line: `text`, `goal` [lat, lon] and optionally `start` [lat, lon].
+    """Read .jsonl or .jsonl.gz, one object a line: `text`, `goal` [lat, lon] and optionally `start` [lat, lon].
 
-    Args:
-        path: .jsonl or .jsonl.gz; other fields are ignored.
-
-    Raises:
-        DataError: the file cannot be read, or a line is wrong.
+    Other fields are ignored. Raise DataError if the file cannot be read, or a line is wrong.
     """
     try:
         with gzip.open(path, "rt", encoding="utf-8") if path.suffix == ".gz" else path.open(encoding="utf-8") as file:

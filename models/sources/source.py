@@ -56,14 +56,9 @@ class Source(ABC):
 
     @abstractmethod
     def queries(self, seed: int = TEST_SEED, spacing_m: float = QUERY_SPACING_M) -> Queries:
-        """Return descriptions with known positions: the poses of a data set, or described positions of a map.
+        """Return descriptions with known positions: the poses of a data set, or drawn positions of a map.
 
-        Args:
-            seed: draws positions in a map.
-            spacing_m: of these.
-
-        Raises:
-            MapError, DataError: there is nothing to describe.
+        Raise MapError or DataError if there is nothing to describe.
         """
 
     def as_scan(self) -> "Source":
@@ -72,11 +67,7 @@ class Source(ABC):
 
     @abstractmethod
     def statements(self, spacing_m: float, rng: np.random.Generator) -> PositionStatements:
-        """Return all true hints at positions to train on; arguments as `queries`.
-
-        Raises:
-            DataError: a scene has no poses.
-        """
+        """Return all true hints at positions to train on; arguments as `queries`."""
 
     @abstractmethod
     def geometry(self) -> PointClouds | PieceGeometry:
@@ -92,15 +83,7 @@ class Source(ABC):
 
 
 class MapSource(Source):
-    """A map that was cut into cells, or a region of it.
-
-    Args:
-        path: of the map, for messages.
-        city_map: the map.
-        geometry: its geometry.
-        cells: all its cells.
-        split: one of SPLITS; None for the whole map.
-    """
+    """A map that was cut into cells, or a region of it (one of SPLITS)."""
 
     def __init__(
         self, path: Path, city_map: CityMap, geometry: MapGeometry, cells: CellTable, split: str | None = None
@@ -199,12 +182,7 @@ class MapSource(Source):
 
 
 class StoreSource(Source):
-    """Scenes of a data set.
-
-    Args:
-        store: the scenes.
-        split: their split.
-    """
+    """Scenes of a data set."""
 
     def __init__(self, store: PoseStore, split: str | None = None) -> None:
         self._store, cells, name = store, store.cell_table(), store.source.resolve().name

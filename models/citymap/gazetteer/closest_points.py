@@ -49,15 +49,7 @@ class ClosestPoints:
 def find_closest_points(
     groups: PointGroups, segments_m: Floats, starts: Ints, is_area: npt.NDArray[np.bool_], reach_m: float
 ) -> ClosestPoints:
-    """Return the closest points of all objects within reach.
-
-    Args:
-        groups: the positions.
-        segments_m: of the objects, see `Gazetteer`.
-        starts: see `Gazetteer`.
-        is_area: see `Gazetteer`.
-        reach_m: greatest distance.
-    """
+    """Return the closest points of all objects within reach; objects are given as in `Gazetteer`."""
     return ClosestPoints(*_closest_points(
         groups.points_m, groups.starts, groups.centers_m, groups.radius_m,
         segments_m.astype(np.float64, copy=False), starts, is_area, float(reach_m),

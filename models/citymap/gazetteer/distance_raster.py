@@ -56,28 +56,16 @@ def _cache_key(_: "DistanceRaster", groups: Sequence[Ints], lines_m: Floats | No
 
 
 class DistanceRaster:
-    """The grid of the cells, with every object of a gazetteer drawn on it.
-
-    Args:
-        gazetteer: of the map.
-        centers_m: [N, 2] of the cells.
-        spacing_m: of their grid.
-
-    Attributes:
-        shape: columns and rows of pixels.
-        cell_pixel: [N] int32 pixel of each cell, column * rows + row.
-        steps_m: [S] the distances between near pixels.
-        block_steps_m: [B] the distances between blocks, the last inf.
-    """
+    """The grid of the N cells of a map, with every object of a gazetteer drawn on it."""
 
     def __init__(self, gazetteer: Gazetteer, centers_m: Floats, spacing_m: float) -> None:
         low_m, high_m = bounding_corners(centers_m)
         west_south = low_m - MARGIN_M
         size = np.ceil((high_m + MARGIN_M - west_south) / spacing_m).astype(int) + 1
         self._blocks = tuple((-(-size // BLOCK_PX)).tolist())
-        self.shape = BLOCK_PX * self._blocks[0], BLOCK_PX * self._blocks[1]
+        self.shape = BLOCK_PX * self._blocks[0], BLOCK_PX * self._blocks[1]  # columns and rows of pixels
         self._grid = PixelGrid(west_south[0], west_south[1], spacing_m, *self.shape)
-        self.cell_pixel = pixels_at(self._grid, centers_m).astype(np.int32)
+        self.cell_pixel = pixels_at(self._grid, centers_m).astype(np.int32)  # [N] column * rows + row
         count = np.bincount(self.cell_pixel, minlength=self.shape[0] * self.shape[1])
         self._cells_in = count.astype(np.float32).reshape(self.shape)
         self._reach = min(
@@ -86,12 +74,13 @@ class DistanceRaster:
         across = math.ceil(math.hypot(*self._blocks))
         self._block_reach = min(across, MAX_SQUARED_REACH_PX)
         self._far_steps = min(across - self._block_reach, MAX_FAR_STEPS)
-        self.steps_m = _step_lengths(self._reach) * np.float32(spacing_m)
+        self.steps_m = _step_lengths(self._reach) * np.float32(spacing_m)  # [S] distances between near pixels
         farther = np.arange(self._far_steps, dtype=np.float32) + np.float32(self._block_reach + 0.5)
         apart = np.concatenate([_step_lengths(self._block_reach), farther, np.array([np.inf], np.float32)])
         apart_m, near_m = apart * np.float32(BLOCK_PX * spacing_m), min(EXACT_REACH_M, self._reach * spacing_m)
         self._is_near = apart_m <= near_m + BLOCK_DIAGONAL * BLOCK_PX * spacing_m
-        self.block_steps_m = np.maximum(apart_m, np.float32(near_m))  # nearer distances are looked up by pixel
+        # [B] distances between blocks, the last inf; nearer ones are looked up by pixel
+        self.block_steps_m = np.maximum(apart_m, np.float32(near_m))
         known = np.minimum(self.block_steps_m / spacing_m, self._reach)
         self._limits = (known * known).astype(np.uint16)  # greatest square that is looked up by pixel in a near block
         large, shapes = (
@@ -131,13 +120,10 @@ class DistanceRaster:
         return float(total.sum()) / len(self.cell_pixel), float(most.max())
 
     def add_best(self, total: Floats, distances: GroupDistances, by_step: Floats, by_block: Floats) -> None:
-        """Add the value of the best group to every pixel.
+        """Add the value of the best group to every pixel of `total` [columns, rows] (float32).
 
-        Args:
-            total: [columns, rows] float32.
-            distances: of the groups.
-            by_step: [T, S] float32 value for each distance of `steps_m`.
-            by_block: [T, B] float32 value for each distance of `block_steps_m`.
+        Values are given for each distance of `steps_m` (`by_step` [T, S]) and of `block_steps_m` (`by_block` [T, B]),
+        float32.
         """
         _add_best(distances.squares, distances.blocks, distances.is_near, self._limits, by_step, by_block, total)
 

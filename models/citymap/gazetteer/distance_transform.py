@@ -21,11 +21,8 @@ SquaredDistances = npt.NDArray[np.uint16]
 def column_distances(pixels: Ints, shape: tuple[int, int], reach: int) -> ColumnDistances:
     """Return the pixels [columns, rows + 2 reach] to the nearest drawn pixel in a column, at most reach + 1.
 
-    Args:
-        pixels: [n] drawn pixels, column * rows + row.
-        shape: columns and rows.
-        reach: pixels, at most 253, because distances are bytes and the scan adds 1 to reach + 1; rows have a margin of
-            this size at both ends.
+    Drawn pixels [n] are column * rows + row. Rows have a margin of `reach` at both ends. The reach is at most 253,
+    because distances are bytes and the scan adds 1 to reach + 1.
     """
     distances = np.full((shape[0], shape[1] + 2 * reach), reach + 1, np.uint8)
     _fill_columns(distances, pixels, reach)
@@ -65,11 +62,8 @@ def pixel_distances(columns: ColumnDistances, pixels: Ints, reach: int) -> Float
 def squared_distances(distances: ColumnDistances, reach: int) -> SquaredDistances:
     """Return the squared pixels [columns, rows] to the nearest drawn pixel; more than reach * reach is beyond reach.
 
-    The loop over pixels has no branch, so that the compiler vectorises it.
-
-    Args:
-        distances: of `column_distances`.
-        reach: as there, at most MAX_SQUARED_REACH_PX.
+    The reach is that of `column_distances`, at most MAX_SQUARED_REACH_PX. The loop over pixels has no branch, so that
+    the compiler vectorises it.
     """
     columns, rows = distances.shape[0], distances.shape[1] - 2 * reach
     squares, square = np.full((columns, rows), 65535, np.uint16), np.empty(distances.shape[1], np.uint16)

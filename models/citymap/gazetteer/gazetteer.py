@@ -97,11 +97,7 @@ class Gazetteer:
 
     @classmethod
     def load(cls, directory: Path) -> "Gazetteer":
-        """Read the file that `save` wrote.
-
-        Raises:
-            IndexBroken: the file does not hold a gazetteer.
-        """
+        """Read the file that `save` wrote; raise IndexBroken if it does not hold a gazetteer."""
         try:
             columns = map_arrays(directory / GAZETTEER_FILE)[0]
             objects = ObjectTable.from_columns(columns)

@@ -42,14 +42,9 @@ def pixels_at(grid: PixelGrid, points_m: Floats) -> Ints:
 
 @compiled
 def draw_lines(grid: PixelGrid, segments_m: Floats, starts: Ints, objects: Ints, sample_m: float) -> tuple[Ints, Ints]:
-    """Return the pixels [S] (int32) on the lines of some objects, object after object, and starts [n + 1].
+    """Return the pixels [S] (int32) on the lines of some objects [n], object after object, and starts [n + 1].
 
-    Args:
-        grid: to draw on; pixels outside are left out.
-        segments_m: of all objects, see `Gazetteer`.
-        starts: see `Gazetteer`.
-        objects: [n] the objects to draw.
-        sample_m: greatest distance between sampled points.
+    Segments and their starts are as in `Gazetteer`; sampled points on them are at most `sample_m` apart.
     """
     steps = _segment_steps(segments_m, starts, objects, sample_m)
     pixels, count, n, until = np.empty(steps.sum() + len(steps), np.int32), 0, 0, np.zeros(len(objects) + 1, np.int64)

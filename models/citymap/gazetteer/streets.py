@@ -27,11 +27,7 @@ class StreetPiece:
 
 
 class StreetPieces:
-    """Collects pieces of streets; only their names stay in memory.
-
-    Attributes:
-        objects: the names of each piece.
-    """
+    """Collects pieces of streets; only their names (`objects`) stay in memory."""
 
     def __init__(self) -> None:
         self.objects, self._names, self._spool = (
@@ -73,12 +69,7 @@ class Streets:
 
 
 def join_streets(pieces: StreetPieces, first: int) -> Streets:
-    """Join the pieces of each name.
-
-    Args:
-        pieces: of all streets; nothing can be added after this.
-        first: number of the first street in the gazetteer.
-    """
+    """Join the pieces of each name; `first` is the number of the first street in the gazetteer."""
     by_name: dict[str, list[int]] = {}
     for n, item in enumerate(pieces.objects):
         by_name.setdefault(item.names[0].casefold(), []).append(n)
@@ -104,13 +95,7 @@ def join_streets(pieces: StreetPieces, first: int) -> Streets:
 def _shared_nodes(
     columns: Mapping[str, Column], streets: Sequence[Sequence[int]], first: int
 ) -> dict[tuple[int, int], list[Floats]]:
-    """Return the positions of the nodes that two streets share, by pair of streets, the lower first.
-
-    Args:
-        columns: of the pieces.
-        streets: the pieces of each street.
-        first: number of the first street.
-    """
+    """Return the positions of the nodes that two streets share, by pair of streets, the lower first."""
     pieces = np.array([n for rows in streets for n in rows], np.int64)
     street = np.repeat(np.arange(len(streets)), [len(rows) for rows in streets])
     street, rows = np.repeat(street, np.diff(columns["nodes_of"])[pieces]), _rows_of(columns["nodes_of"], pieces)

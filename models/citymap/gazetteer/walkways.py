@@ -16,12 +16,7 @@ REACH_PX: Final = round(MAX_DISTANCE_M / PIXEL_SIZE_M)
 
 
 class Walkways:
-    """Distances to the nearest walkway.
-
-    Args:
-        gazetteer: of the map, with an object of kind WALKED_KIND.
-        low_m, high_m: [2] corners of the region of interest.
-    """
+    """Distances to the nearest walkway (an object of kind WALKED_KIND or a square) in a box between two corners [2]."""
 
     def __init__(self, gazetteer: Gazetteer, low_m: Floats, high_m: Floats) -> None:
         west_south = low_m - MAX_DISTANCE_M

@@ -45,7 +45,7 @@ def closest_instances(
         table: the map's pieces.
         rules: of its cells.
         centers_m: [N, 2 or more] of cells.
-        points_m: [M, 2] metres; cell n owns those from point_starts[n] to point_starts[n + 1].
+        points_m: [M, 2]; cell n owns those from point_starts[n] to point_starts[n + 1].
         point_starts: [N + 1].
         reach_m: greatest distance; for a tree the nearer of crown and trunk counts.
         step_m: unit of the offsets returned.
@@ -100,10 +100,7 @@ def _closest_instances(
 
 @compiled
 def _sort_groups(m: int, step_m: float, square: Floats, offset_x: Floats, offset_y: Floats, ranked: Ints) -> int:
-    """Fill in the groups within reach of a point, nearest first, and return how many there are.
-
-    An entry is the squared steps times GROUPS_LIMIT, plus the group.
-    """
+    """Fill `ranked` with squared steps * GROUPS_LIMIT + group of the groups within reach; return their number."""
     count = 0
     for g in range(len(square)):
         if square[g, m] < 0.0:

@@ -74,14 +74,7 @@ def _extent(geometry: Geometries) -> Floats:
 
 
 def connected_pieces(table: PieceTable, cube: Ints, piece: Ints, is_linked: npt.NDArray[np.bool_]) -> Ints:
-    """Return the number [P] of the connected group of each piece in its cube.
-
-    Args:
-        table: all pieces.
-        cube: [P] ascending.
-        piece: [P] ascending in each cube.
-        is_linked: [P] False for pieces whose links do not count.
-    """
+    """Return the number [P] of the connected group of each piece in its cube; cubes ascend, and pieces in each cube."""
     key = cube.astype(np.int64) * len(table.instance) + piece
     rows = np.flatnonzero(is_linked)
     begin, end = table.link_starts[piece[rows]], table.link_starts[piece[rows] + 1]
@@ -102,15 +95,9 @@ def cut_pieces(
     progress: Callable[[int, int], None] | None = None,
     least: int = 0,
 ) -> PartTable:
-    """Cut the cubes around some centres; see `models.citymap.cells.cut_cubes`.
+    """Cut the cubes around centres [N, 3] as `cells.cut_cubes`; cubes of fewer than `least` parts stay empty.
 
-    Args:
-        table: the map's pieces.
-        instance_rgb: [I, 3] colour of each instance, NaN where unknown.
-        centers_m: [N, 3] centres, metres.
-        rules: size of the cubes and how to clip.
-        progress: called with (cubes cut, cubes to cut).
-        least: cubes of fewer parts are left empty.
+    Colours [I, 3] of instances are NaN where unknown.
     """
     chunks = [centers_m[i : i + CUBES_PER_TASK] for i in range(0, len(centers_m), CUBES_PER_TASK)] or [centers_m]
     work = partial(_cut_chunk, table, InstanceTotals.from_pieces(table), rules, least)
@@ -212,15 +199,7 @@ def _cut_chunk(table: PieceTable, whole: InstanceTotals, rules: CutRules, least:
 def sample_pieces(
     table: PieceTable, instance_rgb: Floats, shapes: Sequence[str], centers_m: Floats, rules: CutRules
 ) -> Floats:
-    """Return sampled points [R, 256, 6] of the parts in cubes around some centres, in order of `PartTable`.
-
-    Args:
-        table: the map's pieces.
-        instance_rgb: [I, 3] colour of each instance, NaN where unknown.
-        shapes: of the instances, see `Solid`.
-        centers_m: [N, 3] centres, metres.
-        rules: size of the cubes and how to clip.
-    """
+    """Return sampled points [R, 256, 6] of the parts in cubes around centres [N, 3], in order of `PartTable`."""
     grouped = _PartGroups.cut(table, InstanceTotals.from_pieces(table), rules, centers_m.astype(np.float64))
     return stack_samples(
         [
@@ -233,8 +212,8 @@ def sample_pieces(
 def scan_pieces(table: PieceTable, shapes: Sequence[str], centers_m: Floats, rules: CutRules) -> Floats:
     """Return the point [R, 3] (float32) of each part that is nearest to the centre, among the points a scan would have.
 
-    Arguments and order as `sample_pieces`. The points of a scan lie apart, so the nearest is off by up to some metres
-    along a far edge.
+    Arguments and order are those of `sample_pieces`. The points of a scan lie apart, so along a far edge the nearest
+    can be metres off.
     """
     grouped = _PartGroups.cut(table, InstanceTotals.from_pieces(table), rules, centers_m.astype(np.float64))
     closest = [np.zeros((0, 3))]

@@ -105,10 +105,8 @@ class _SolidArrays:
 def cut_band(solids: Sequence[Solid], band: TileSpan) -> PieceRows:
     """Cut solids into pieces in some columns of tiles; return them in order of tile, then instance.
 
-    Args:
-        solids: all that reach into these columns, and maybe others. The area with the lowest number covers others;
-            solids of one instance of areas or lines have the same heights.
-        band: the columns.
+    The solids include all that reach into these columns. The area with the lowest number covers others; solids of one
+    instance of areas or lines have the same heights.
     """
     area, line, thing = (_SolidArrays.from_solids(solids, form) for form in FORMS)
     rows = PieceRows.concatenate([_cut_stuff(area, band), _cut_stuff(line, band), _cut_things(thing, band)])

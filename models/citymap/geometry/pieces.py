@@ -46,11 +46,7 @@ class PieceTable:
 
     @classmethod
     def from_bands(cls, bands: Iterable[PieceRows]) -> "PieceTable":
-        """Build the table of a whole map, in columns on disk.
-
-        Args:
-            bands: of `cut_band`, from west to east; at least one has pieces.
-        """
+        """Build the table of a whole map, in columns on disk, from bands from west to east; one must have pieces."""
         columns = spooled({f.name: getattr(rows, f.name) for f in fields(PieceRows)} for rows in bands)
         column, row, sizes = (columns.pop(name) for name in ("column", "row", "sizes"))
         low = np.array([column.min(), row.min()], dtype=np.int64)
@@ -91,15 +87,7 @@ class PieceTable:
         return to_geometry(self.segment_starts, self.segments, self.tile, self.dimension, known)[which]
 
     def in_tiles(self, first: Ints, last: Ints) -> tuple[Ints, Ints]:
-        """Return the pieces in rectangles of tiles.
-
-        Args:
-            first: [n, 2] column and row of their first corners.
-            last: [n, 2] column and row of their last corners, inclusive.
-
-        Returns:
-            [P] rectangle, ascending, and [P] piece, ascending in each rectangle.
-        """
+        """Return rectangle [P], ascending, and piece [P] in rectangles of tiles, given their corners [n, 2]."""
         first = np.maximum(first - self.low, 0)
         last = np.minimum(last - self.low, self.shape - 1)
         columns = np.maximum(last[:, 0] - first[:, 0] + 1, 0)
@@ -116,12 +104,7 @@ class PieceTable:
         return tile
 
     def ground_lattice(self, pieces: Ints, spacing_m: float) -> Floats:
-        """Return positions [n, 3] (float32) in areas, one in each square block with a corner or middle inside.
-
-        Args:
-            pieces: rows of the areas, ascending.
-            spacing_m: edge of the blocks.
-        """
+        """Return positions [n, 3] (float32) in areas, one in each square block with a corner or middle inside."""
         places: Floats = spooled({"m": block} for block in self._lattice_batches(pieces, spacing_m))["m"]
         return places
 
@@ -176,16 +159,10 @@ def _pieces_per_tile(columns: Ints, rows: Ints, low: Ints, shape: Ints) -> Ints:
 def _find_links(
     column: Ints, row: Ints, starts: Ints, columns: Mapping[str, npt.NDArray[Any]]
 ) -> Iterator[dict[str, Ints]]:
-    """Yield links between pieces of one instance that touch across the border of two tiles, some columns at a time.
+    """Yield the numbers of links ("sizes") and "links" between pieces of one instance that touch across tiles.
 
-    Args:
-        column: [K] of each piece's tile, ascending.
-        row: [K] of each piece's tile.
-        starts: [K + 1] of the pieces' segments.
-        columns: of the table.
-
-    Yields:
-        "sizes", the number of links of each of the next pieces, and "links".
+    Works on some columns of tiles at a time. Pieces [K] are in order of column and have the segments from `starts` [K +
+    1].
     """
     instance, dimension, form, segments = (columns[name] for name in ("instance", "dimension", "form", "segments"))
     count, known, pending = len(column), 0, np.zeros(0, np.int64)
@@ -219,14 +196,7 @@ def _touching_pairs(
 ) -> Ints:
     """Return pairs [L, 2] of pieces that touch across borders of constant x (axis 0) or y (axis 1).
 
-    Args:
-        axis: 0 or 1.
-        segment_piece: [S] the piece of each segment.
-        segments: [S, 4] of those that may be on a border.
-        tile: [K, 2] column and row of each piece's tile.
-        instance: [K].
-        dimension: [K].
-        wanted: borders; each lies west of the column or south of the row of its number.
+    Segments [S, 4] are those that may lie on a border. A wanted border is west or south of the tile of its number.
     """
     is_line = dimension[segment_piece] == 1
     along_m = segments[:, [1 - axis, 3 - axis]] * STEP_M + tile[segment_piece, 1 - axis, None] * TILE_M

@@ -24,14 +24,9 @@ def snap(geometry: Geometries) -> Geometries:
 
 
 def to_segments(geometry: Geometries, tile: Ints) -> tuple[Ints, Steps]:
-    """Return the segments of pieces.
+    """Return the starts [K + 1] and segments [S, 4] (x and y of both ends) of pieces after `snap`.
 
-    Args:
-        geometry: [K] each in its tile, after `snap`.
-        tile: [K, 2] column and row.
-
-    Returns:
-        [K + 1] starts and [S, 4] x and y of both ends; a point has two equal ends.
+    `tile` [K, 2] is their column and row. A point has two equal ends.
     """
     dimensions = shapely.get_dimensions(geometry)
     geometry = shapely.orient_polygons(geometry)
@@ -54,15 +49,7 @@ def to_segments(geometry: Geometries, tile: Ints) -> tuple[Ints, Steps]:
 
 
 def to_geometry(starts: Ints, segments: Steps, tile: Ints, dimension: Ints, pieces: Ints) -> Geometries:
-    """Rebuild the geometries of some pieces from all segments.
-
-    Args:
-        starts: see `to_segments`.
-        segments: see `to_segments`.
-        tile: [K, 2] column and row.
-        dimension: [K] 0 for points, 1 for lines, 2 for areas.
-        pieces: [n] the pieces.
-    """
+    """Rebuild the geometries of pieces [n] from all segments; a dimension is 0 for points, 1 for lines, 2 for areas."""
     begin, end = starts[pieces], starts[pieces + 1]
     owner = np.repeat(np.arange(len(pieces)), end - begin)
     ends = segments[ranges(begin, end)]

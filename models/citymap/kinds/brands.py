@@ -15,11 +15,7 @@ def normalize_name(name: str) -> str:
 
 
 class Brands:
-    """Brands by their spellings.
-
-    Args:
-        brands: the spellings of each brand, the usual one first.
-    """
+    """Brands, found by any of their spellings, of which the usual one is first."""
 
     def __init__(self, brands: Sequence[Sequence[str]]) -> None:
         self._brands = brands

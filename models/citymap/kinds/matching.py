@@ -27,9 +27,7 @@ def specificity_key(kind: Kind) -> tuple[bool, bool, int, str]:
 class Matcher:
     """Finds the kinds of objects, using an index over one tag of each kind.
 
-    Args:
-        kinds: in the order in which they are returned.
-        same: tags "key=value" that mean the same as the kind of an id.
+    `same` has tags "key=value" that mean the same as the kind of an id.
     """
 
     def __init__(self, kinds: Iterable[Kind], same: Tags) -> None:

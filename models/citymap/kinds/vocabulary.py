@@ -20,13 +20,7 @@ LANGUAGE_ALIASES = {"nb": "no", "nn": "no", "zh": "zh-CN", "zh-HK": "zh-TW"}
 
 
 class Vocabulary:
-    """Kinds, nouns and brands, from a folder of vendored files.
-
-    Attributes:
-        version: of the packages it was made from.
-        kinds: all kinds, most specific first.
-        languages: those with nouns.
-    """
+    """Kinds (most specific first), nouns and brands, from a folder of vendored files."""
 
     def __init__(self, folder: Path = FOLDER) -> None:
         self._folder = folder
@@ -48,14 +42,10 @@ class Vocabulary:
         return self._matcher.kinds_of(tags)
 
     def nouns(self, language: str = "en") -> Mapping[str, tuple[tuple[str, float], ...]]:
-        """Return the nouns for kinds.
+        """Return by casefolded phrase the ids of kinds with weights in (0, 1], the highest first.
 
-        Args:
-            language: "fi", "pt-BR"; a region without its own names uses the language's. Others have no nouns.
-
-        Returns:
-            By casefolded phrase the ids of kinds with weights in (0, 1], the highest first: 1 is the kind's name, 0.9
-            another name, 0.5 a mere search term (in English only).
+        1 is the kind's name, 0.9 another name, 0.5 a mere search term (in English only). A region ("pt-BR") without its
+        own names uses the language's; unknown languages have no nouns.
         """
         language = LANGUAGE_ALIASES.get(language, language)
         if language not in self.languages:

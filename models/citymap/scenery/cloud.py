@@ -15,14 +15,9 @@ SEED = 0  # of the order of points
 
 
 def encode_cloud(xyz_m: Floats, rgb: npt.NDArray[np.uint8]) -> Iterator[SceneryBlob]:
-    """Yield parts of at most POINTS_PER_PART points each, drawn at random.
+    """Yield parts of at most POINTS_PER_PART of the points [P, 3], drawn at random, with their colours [P, 3].
 
-    Tensors: "steps" [P, 3], decimetres, each point relative to the one before it, the first to the origin;
-    "rgb" [P, 3].
-
-    Args:
-        xyz_m: [P, 3] metres, map frame.
-        rgb: [P, 3].
+    Tensors: "steps" [P, 3], decimetres from the point before, the first from the origin; "rgb" [P, 3].
     """
     order = np.random.default_rng(SEED).permutation(len(xyz_m))
     for start in range(0, max(1, len(order)), POINTS_PER_PART):

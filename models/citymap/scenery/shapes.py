@@ -32,10 +32,7 @@ class NamedPoint:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Outlines:
-    """O objects of R paths of V vertices as they are drawn; numbers are decimetres.
-
-    Objects are sorted by label, then by position.
-    """
+    """O objects of R paths of V vertices as they are drawn, by label, then by position; numbers are decimetres."""
 
     labels: list[str]  # the topmost first
     names: dict[int, str]  # by number of the object
@@ -52,11 +49,7 @@ class Outlines:
         return builder.build()
 
     def encode(self, places: Iterable[NamedPoint] = ()) -> SceneryBlob:
-        """Return a part of scenery; its metadata have "labels", "names" and "places" [[x, y, name, kind]] as JSON.
-
-        Args:
-            places: the named points.
-        """
+        """Return a part of scenery; its metadata have "labels", "names" and "places" [[x, y, name, kind]] as JSON."""
         lists: dict[str, Any] = {
             "labels": self.labels,
             "names": self.names,
@@ -104,11 +97,7 @@ class DrawnObjects:
 
 
 class OutlinesBuilder:
-    """Collects the drawn objects of a map on disk.
-
-    Args:
-        labels: of all objects, the topmost first.
-    """
+    """Collects the drawn objects of a map on disk, given the labels of all objects, the topmost first."""
 
     def __init__(self, labels: Iterable[str]) -> None:
         self._number = {label: n for n, label in enumerate(labels)}

@@ -46,13 +46,7 @@ class _NearestObject(NamedTuple):
 
 
 def find_reachable_parts(points: PointTable, config: PrepareConfig, positions_m: Floats) -> list[ReachableParts]:
-    """Return the parts within reach of each position.
-
-    Args:
-        points: the scene's points.
-        config: size of the cube and reach.
-        positions_m: [N, 3] world metres.
-    """
+    """Return the parts within reach of each position [N, 3], world metres."""
     return [_find_reachable_parts(points, config, position) for position in positions_m]
 
 
@@ -78,12 +72,7 @@ def describe_pose(
 ) -> list[StrategyDescription]:
     """Describe a pose by each strategy; a description of the same instances as an earlier one is dropped.
 
-    Args:
-        around: the parts in reach, at least `config.num_hints` rows.
-        raw: the scene.
-        cell: the best cell.
-        pose: [3] the position, in units of that cell.
-        config: strategies, number of hints.
+    `around` has at least `config.num_hints` rows; `pose` [3] is in units of the best cell.
     """
     direction = direction_index(CUBE_CENTER - around.closest, config.on_top_share)
     label_number = {label: n for n, label in enumerate({i.label: None for i in raw.instances})}

@@ -39,27 +39,22 @@ def prepare_data(
     seed: int = 0,
     progress: Progress | None = None,
 ) -> tuple[str, ...]:
-    """Prepare scenes one after the other.
+    """Prepare scenes one after the other; return the file names of all chosen scenes, which are complete then.
 
     A complete scene in `out` that was made from the same raw files (by name, size and time) with the same settings is
     kept. A scene made otherwise is never replaced, but refused before any work begins. If a scene cannot be prepared,
-    the others still are.
+    the others still are. Runs that prepare different scenes may share `out`.
 
     Args:
         raw: folder with data_3d_semantics and data_poses.
-        out: root of the published layout; made if missing, other scenes in it are left alone. Runs that prepare
-            different scenes may share it.
+        out: root of the published layout.
         scene: name of a folder, or the drive's digits ("0003"), or as `select_scenes`; None for all.
         config: every option.
-        seed: 0 or greater; with the scene's name it draws the scene's positions, whatever scenes are prepared with it.
-        progress: called with (scene, work done, total work); work is counted in bytes of all chosen scenes' raw files.
-
-    Returns:
-        The file names of the chosen scenes; all of them are complete.
+        seed: draws, with the scene's name, its positions, whatever scenes are prepared with it.
+        progress: called with (scene, work done, total work), in bytes of all chosen scenes' raw files.
 
     Raises:
-        DataError: no such scene or none at all, `out` cannot be written or holds a chosen scene that was made
-            otherwise, or some scenes could not be prepared; file and field are named.
+        DataError: a scene is unknown, was made otherwise, or cannot be prepared or written.
     """
     recipes = {folder: build_recipe(raw, folder, config, seed) for folder in _choose_folders(raw, scene)}
     _check_output(raw, out)
@@ -119,11 +114,7 @@ def _file_paths(root: Path, scene: str) -> dict[str, Path]:
 
 
 def _is_finished(out: Path, recipe: Recipe) -> bool:
-    """Whether a scene is complete.
-
-    Raises:
-        DataError: it was made otherwise than the recipe says.
-    """
+    """Whether a scene is complete; raise DataError if it was made otherwise than the recipe says."""
     places = _file_paths(out, recipe.scene)
     if (out / f".placing-{recipe.scene}").is_dir():
         return False

@@ -23,19 +23,11 @@ Progress = Callable[[int, int], None]
 def prepare_scene(
     raw: RawScene, config: PrepareConfig, rng: np.random.Generator, progress: Progress | None = None
 ) -> tuple[list[PublishedCell], list[PublishedPose]]:
-    """Make a scene's cells and poses.
+    """Make a scene's cells, in order of x, then y, and its poses, in order of location, copy and strategy.
 
-    Args:
-        raw: the scene, read with the classes of the same config.
-        config: every option.
-        rng: draws the positions.
-        progress: called with (cubes cut, cubes to cut).
-
-    Returns:
-        Cells in order of x, then y; poses in order of location, copy and strategy.
-
-    Raises:
-        DataError: no location near a thing, no cell, or no position with enough instances around it.
+    The scene was read with the classes of the same config; `rng` draws the positions, `progress` gets (cubes cut, cubes
+    to cut). Raise DataError if there is no location near a thing, no cell, or no position with enough instances around
+    it.
     """
     points = scene_points(raw, config)
     locations = choose_locations(raw, config)
@@ -71,11 +63,7 @@ def scene_points(raw: RawScene, config: PrepareConfig) -> PointTable:
 
 
 def choose_locations(raw: RawScene, config: PrepareConfig) -> Floats:
-    """Return poses [L, 3] of the trajectory, spaced, near some thing (rule 3).
-
-    Raises:
-        DataError: there is none.
-    """
+    """Return poses [L, 3] of the trajectory, spaced, near some thing (rule 3); raise DataError if there is none."""
     spaced = raw.trajectory_m[:1]
     for position in raw.trajectory_m[1:]:
         if np.linalg.norm(spaced - position, axis=1).min() >= config.spacing_m:
@@ -93,11 +81,7 @@ def choose_locations(raw: RawScene, config: PrepareConfig) -> Floats:
 
 
 def grid_centers(raw: RawScene, locations_m: Floats, config: PrepareConfig) -> Floats:
-    """Return the centres [N, 3] of the cells to cut, by x, then y (rule 4): whole metres, without the upper bound.
-
-    Raises:
-        DataError: the locations span no step of the grid.
-    """
+    """Return the centres [N, 3] of the cells to cut, by x, then y (rule 4): whole metres, without the upper bound."""
     low, high = locations_m.min(axis=0).astype(int), locations_m.max(axis=0).astype(int)
     axes = [np.arange(low[axis], high[axis], config.cut.grid_m) for axis in range(2)]
     x, y = np.meshgrid(*axes, indexing="ij")
@@ -120,11 +104,7 @@ def shift_locations(locations_m: Floats, config: PrepareConfig, rng: np.random.G
 def cut_cells(
     raw: RawScene, points: PointTable, centers_m: Floats, config: PrepareConfig, step: Callable[[int], None]
 ) -> list[PublishedCell]:
-    """Cut the cells around some centres; numbers count all centres, also those with too few instances (rule 4).
-
-    Raises:
-        DataError: no cell has enough instances.
-    """
+    """Cut the cells around some centres; numbers count all centres, also those with too few instances (rule 4)."""
     cells: list[PublishedCell] = []
     chunks = [centers_m[i : i + CUBES_PER_TASK] for i in range(0, len(centers_m), CUBES_PER_TASK)]
     number = 0
@@ -169,18 +149,10 @@ def describe_positions(
     config: PrepareConfig,
     step: Callable[[int], None] = lambda cubes: None,
 ) -> list[PublishedPose]:
-    """Return poses with descriptions at given positions (rules 5 to 8).
+    """Return poses with descriptions at positions [N, 3], in order of position, then strategy (rules 5 to 8).
 
-    Args:
-        raw: the scene.
-        points: `scene_points(raw, config)`.
-        cells: the cells that hints are matched to; a position without a centre in reach is left out.
-        positions_m: [N, 3] world metres.
-        config: every option.
-        step: called with the number of positions done since the last call.
-
-    Returns:
-        In order of position, then strategy; a position with fewer instances in reach than hints is left out.
+    A position without a cell centre in reach, or with fewer instances in reach than hints, is left out. `points` are
+    `scene_points(raw, config)`; `step` gets the number of positions done since the last call.
     """
     distance, best = _best_cells(cells, positions_m, config)
     reachable = np.flatnonzero(distance <= config.best_cell_reach_m)

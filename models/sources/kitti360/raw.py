@@ -63,11 +63,7 @@ class _PartialInstance:
 
 
 def list_raw_scenes(root: Path) -> tuple[str, ...]:
-    """Return the names of the scenes' folders of a raw data set, in order.
-
-    Raises:
-        DataError: there is none.
-    """
+    """Return the names of the scenes' folders of a raw data set, in order; raise DataError if there is none."""
     scenes = tuple(sorted(_scene_folders(root)))
     if not scenes:
         raise DataError(f"{root / TILES}: no scene; the raw layout is {TILES}/<scene>/static/*.ply")
@@ -80,16 +76,10 @@ def load_raw_scene(
     classes: tuple[ClassRule, ...] = CLASSES,
     step: Callable[[int], None] = lambda size: None,
 ) -> RawScene:
-    """Read a scene's tiles and trajectory.
+    """Read a scene's tiles and trajectory, and keep the points of some classes.
 
-    Args:
-        root: folder with data_3d_semantics and data_poses.
-        scene: name of its folder, or the drive's digits ("0003").
-        classes: rules of the classes to keep; points of other classes are ignored.
-        step: called with the size of each tile's file in bytes, when the tile is read.
-
-    Raises:
-        DataError: no such scene, no tiles, a tile or a trajectory that cannot be read, or no instance in them.
+    The scene is the name of its folder, or the drive's digits ("0003"); `step` gets the bytes of each tile that was
+    read. Raise DataError if there is no such scene, no instance in it, or a file that cannot be read.
     """
     folder = scene_folder(root, scene)
     grown: dict[int, _PartialInstance] = {}
@@ -115,15 +105,7 @@ def _scene_folders(root: Path) -> dict[str, Path]:
 
 
 def scene_folder(root: Path, scene: str) -> Path:
-    """Return the folder of a scene's tiles.
-
-    Args:
-        root: folder with data_3d_semantics and data_poses.
-        scene: name of its folder, or the drive's digits ("0003").
-
-    Raises:
-        DataError: no such scene.
-    """
+    """Return the folder of a scene's tiles, given its name or the drive's digits; raise DataError if there is none."""
     for name, folder in sorted(_scene_folders(root).items()):
         if scene in (name, short_name(name)):
             return folder
@@ -131,11 +113,7 @@ def scene_folder(root: Path, scene: str) -> Path:
 
 
 def tile_paths(folder: Path) -> list[Path]:
-    """Return the tiles of a scene's folder in order; a gzipped one is used if the plain one is missing.
-
-    Raises:
-        DataError: there are none.
-    """
+    """Return the tiles of a scene's folder in order; a gzipped one is used if the plain one is missing."""
     static = folder / "static"
     by_name = {path.name.removesuffix(".gz"): path for ending in ("*.ply.gz", "*.ply") for path in static.glob(ending)}
     if not by_name:
@@ -161,12 +139,7 @@ def _merge(grown: dict[int, _PartialInstance], tile: Tile, classes: tuple[ClassR
 
 
 def read_tile(path: Path) -> Tile:
-    """Read the points of one binary PLY file, plain or gzipped.
-
-    Raises:
-        DataError: not a binary PLY file, cut short, a property missing or of another type, or an impossible
-            coordinate; the message names the file and the field.
-    """
+    """Read the points of one binary PLY file, plain or gzipped; raise DataError with file and field if it is broken."""
     try:
         with _open_mappable(path) as stream:
             _check_header(path, stream)
@@ -228,11 +201,7 @@ def _failed_element(error: Any) -> str:
 
 
 def read_trajectory(path: Path) -> Floats:
-    """Read the world positions [F, 3] (float64) of the vehicle, metres, in order of line.
-
-    Raises:
-        DataError: no file, a malformed line, a number that is not finite, or fewer than two lines.
-    """
+    """Read the world positions [F, 3] (float64) of the vehicle, in order of line; raise DataError if malformed."""
     try:
         lines = path.read_text(encoding="ascii").splitlines()
     except (OSError, UnicodeDecodeError) as error:

@@ -46,14 +46,7 @@ class PreparationRecord(Recipe):
 
 
 def build_recipe(raw: Path, folder: str, config: PrepareConfig, seed: int) -> Recipe:
-    """Return the recipe for preparing a scene now.
-
-    Args:
-        raw: root of the raw data.
-        folder: of the scene; missing files are left out here and reported when the scene is read.
-        config: every option.
-        seed: of the positions.
-    """
+    """Return the recipe for preparing a scene now; missing files are reported later, when the scene is read."""
     try:
         files = tile_paths(scene_folder(raw, folder))
     except DataError:
@@ -69,15 +62,7 @@ def build_recipe(raw: Path, folder: str, config: PrepareConfig, seed: int) -> Re
 
 
 def read_record(path: Path, advice: str) -> PreparationRecord:
-    """Read the record of a prepared scene.
-
-    Args:
-        path: prepared/<scene>.json.
-        advice: what to do if it is not usable.
-
-    Raises:
-        DataError: it cannot be read, is malformed, or is of another version of this software.
-    """
+    """Read prepared/<scene>.json; raise DataError, with the advice, if it is not usable or of another version."""
     try:
         return PreparationRecord.model_validate_json(path.read_bytes())
     except OSError as error:

@@ -32,15 +32,7 @@ NEIGHBOUR_TOLERANCE_M = 1e-3  # cells of one grid are whole steps apart; others 
 
 
 def find_neighbours(cells: Sequence[PublishedCell], grid_m: float) -> Neighbours:
-    """Find the neighbours of each cell of a scene.
-
-    Args:
-        cells: of one scene, on one grid.
-        grid_m: the grid's step, metres.
-
-    Returns:
-        For each cell's id, in order: point of the compass -> id of the cell there, where there is one.
-    """
+    """Return by cell id and point of the compass the neighbour in a grid of some step, where there is one."""
     neighbours: Neighbours = {cell.id: {} for cell in cells}
     corners_m = np.array([cell.bbox_w[:2] for cell in cells])
     tree = cKDTree(corners_m)
@@ -52,12 +44,7 @@ def find_neighbours(cells: Sequence[PublishedCell], grid_m: float) -> Neighbours
 
 
 def save_direction(path: Path, neighbours: Neighbours) -> None:
-    """Write the neighbours of a scene's cells as published: all points of the compass, null where there is no cell.
-
-    Args:
-        path: direction/<scene>.json; replaced when all is written.
-        neighbours: of each cell of the scene.
-    """
+    """Write the neighbours of a scene's cells as published: all points of the compass, null where there is no cell."""
     stored = {
         cell_id: {point: points.get(point) for point in get_args(Compass)} for cell_id, points in neighbours.items()
     }

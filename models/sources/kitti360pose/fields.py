@@ -30,16 +30,7 @@ class PickleFile:
         return DataError(f"{self.path}: {field} {problem}; {ADVICE}")
 
     def read_records(self, value: Any, field: str, kind: str) -> "list[Fields]":
-        """Return the records of a list.
-
-        Args:
-            value: should be a list of records.
-            field: the list's place in the file.
-            kind: the class the records must have.
-
-        Raises:
-            DataError: it is not a list, or holds something else.
-        """
+        """Return the records in a value that should be a list of one kind of them; raise DataError otherwise."""
         if type(value) is not list:
             raise self.error(field, f"is not a list of {kind}, but {_describe_type(value)}")
         for n, item in enumerate(value):

@@ -46,11 +46,7 @@ def file_name(scene: str) -> str:
 
 
 def list_scenes(root: Path) -> tuple[str, ...]:
-    """Return the scenes of a published layout by name of file, in order.
-
-    Raises:
-        DataError: there is none.
-    """
+    """Return the scenes of a published layout by name of file, in order; raise DataError if there is none."""
     scenes = tuple(sorted(path.stem for path in (root / "cells").glob("*.pkl") if path.is_file()))
     if not scenes:
         raise DataError(f"{root / 'cells'}: no scene; the published layout is cells/<scene>.pkl and poses/<scene>.pkl")
@@ -60,14 +56,9 @@ def list_scenes(root: Path) -> tuple[str, ...]:
 def select_scenes(available: Sequence[str], split: str | None, where: Path) -> tuple[str, ...]:
     """Return the scenes of a split.
 
-    Args:
-        available: names of scenes, long or short.
-        split: "train", "val" or "test": those of the standard split that are available; or a comma list of names,
-            long or short, all of which must be; None for all.
-        where: name of the data in messages.
-
-    Raises:
-        DataError: a named scene, or every scene of a standard split, is missing, or a name is ambiguous.
+    A split is "train", "val" or "test" (those of the standard split that are available), a comma list of names, long or
+    short, or None for all. Raise DataError if a named scene, or every scene of a standard split, is missing, or a name
+    is ambiguous; `where` names the data.
     """
     if split is None:
         return tuple(available)
@@ -88,13 +79,9 @@ def select_scenes(available: Sequence[str], split: str | None, where: Path) -> t
 
 
 def iter_cells(path: Path) -> Iterator[PublishedCell]:
-    """Yield the cells of a scene; only one cell's points are in memory at a time.
+    """Yield the cells of cells/<scene>.pkl; only one cell's points are in memory at a time.
 
-    Args:
-        path: cells/<scene>.pkl.
-
-    Raises:
-        DataError: it is missing, cut short, holds anything but cells, or a cell is not usable; file and field named.
+    Raise DataError, with file and field, if the file is missing, cut short, or holds anything but usable cells.
     """
     ids: set[str] = set()
     scene_name = None
@@ -110,14 +97,7 @@ def iter_cells(path: Path) -> Iterator[PublishedCell]:
 
 
 def load_poses(path: Path) -> list[PublishedPose]:
-    """Load the poses of a scene.
-
-    Args:
-        path: poses/<scene>.pkl.
-
-    Raises:
-        DataError: it is missing, cut short, holds anything but poses, or a pose is not usable; file and field named.
-    """
+    """Load the poses of poses/<scene>.pkl; errors as `iter_cells`."""
     poses: list[PublishedPose] = []
     with _open_records(path, "poses", "Pose") as records:
         for record in records:
@@ -132,16 +112,10 @@ def build_cell_key(cell: PublishedCell) -> CellKey:
 
 
 def check_poses(path: Path, poses: Sequence[PublishedPose], cells: Mapping[str, CellKey]) -> None:
-    """Check that poses belong to a scene's cells.
+    """Check that the poses of a file belong to the cells of the same scene, by id.
 
-    Args:
-        path: of the poses, for messages.
-        poses: of one scene.
-        cells: of the same scene, by id.
-
-    Raises:
-        DataError: a pose's cell, or the object of a matched hint, is missing; or the cells are of another scene, or
-            in another frame.
+    Raise DataError if a pose's cell, or the object of a matched hint, is missing, or the cells are of another scene or
+    frame.
     """
     for n, pose in enumerate(poses):
         problem = _pose_problem(pose, cells)
@@ -165,16 +139,10 @@ def _pose_problem(pose: PublishedPose, cells: Mapping[str, CellKey]) -> str | No
 
 
 def save_scene(root: Path, scene: str, cells: Iterable[PublishedCell], poses: Sequence[PublishedPose]) -> None:
-    """Write a scene so that this module and the reference code can read it.
+    """Write a scene so that this module and the reference code can read it; without poses, remove the file of poses.
 
-    Args:
-        root: of the published layout; made if missing.
-        scene: name of the files; four digits become KITTI-360's name for them.
-        cells: may be an iterator, so that they need not fit into memory.
-        poses: if there are none, the file of poses is removed.
-
-    Raises:
-        DataError: poses do not belong to the cells, or the name is not a valid file name; nothing is changed.
+    A name of four digits becomes KITTI-360's name. Cells are written one by one. Raise DataError, and change nothing,
+    if poses do not belong to the cells, or the name is not a valid file name.
     """
     name = file_name(scene)
     if not name or Path(name).name != name or name.startswith("."):

@@ -39,12 +39,7 @@ class DataUnpickler:
         self._memo: dict[int, Any] = {}
 
     def load(self) -> Any:
-        """Return the value of the pickle.
-
-        Raises:
-            RefusedPickle: it names a global or an operation that data does not need.
-            MALFORMED_ERRORS: it is cut short or not a pickle.
-        """
+        """Return the value of the pickle; raise RefusedPickle, or one of MALFORMED_ERRORS if it is broken."""
         read, steps, stop = self._file.read, OPERATIONS, pickle.STOP
         while (code := read(1)) != stop:
             step = steps.get(code)
@@ -237,12 +232,7 @@ OPERATIONS: dict[bytes, Operation] = {
 def read_pickle(file: BinaryIO, path: Path) -> Any:
     """Return the value of an open pickle file; arrays keep their values in the file.
 
-    Args:
-        file: opened for reading in binary.
-        path: its name, for messages.
-
-    Raises:
-        DataError: it is cut short, not a pickle, or asks for anything but records and arrays.
+    Raise DataError if it is cut short, not a pickle, or asks for anything but records and arrays.
     """
     try:
         return DataUnpickler(file, path.stat().st_size).load()

@@ -20,10 +20,7 @@ Box = tuple[int, int, int, int]
 
 @dataclass(frozen=True, slots=True)
 class CopyGrid:
-    """The layout of the copies: row by row from the south-west, copy 0 where the extract is.
-
-    The last row may be shorter.
-    """
+    """The layout of copies: row by row from the south-west, copy 0 where the extract is."""
 
     box: Box  # west, south, east, north of one copy, in units of 1e-7 degrees
     copies: int
@@ -48,11 +45,7 @@ class CopyGrid:
         return column * width, row * height
 
     def bounds(self) -> tuple[float, float, float, float]:
-        """Return west, south, east, north of the grid in degrees.
-
-        Raises:
-            MapError: it does not fit on Earth.
-        """
+        """Return west, south, east, north of the grid in degrees; raise MapError if it does not fit on Earth."""
         west, south, east, north = self.box
         east, north = east + self.shift(self.columns - 1)[0], north + self.shift(self.copies - 1)[1]
         if east > 180 * UNITS_PER_DEGREE or north > 85 * UNITS_PER_DEGREE:
@@ -82,11 +75,7 @@ class CityExtract:
 
     @classmethod
     def read(cls, path: Path) -> "CityExtract":
-        """Read an OpenStreetMap file once.
-
-        Raises:
-            MapError: there is none, it cannot be read, or it has no positions.
-        """
+        """Read an OpenStreetMap file once; raise MapError if it cannot be read, or has no positions."""
         if not path.is_file() or not path.name.lower().endswith(SUFFIXES):
             raise MapError(f"{path}: not an OpenStreetMap file; give one that ends in {' or '.join(SUFFIXES)} as --map")
         element: Any
@@ -109,20 +98,11 @@ class CityExtract:
         return cls(path, box, {kind: max(numbers) - min(numbers) + 1 for kind, numbers in ids.items()}, names)
 
     def write_tiled(self, copies: int, out: Path) -> CopyGrid:
-        """Write copies side by side; the file is read again for each, with one element in memory at a time.
+        """Write copies side by side into an .osm.pbf; the file is read again for each, with one element in memory.
 
         Copy 0 is the extract as it is. The others have shifted ids and coordinates and new names, see
-        `models.sources.osm.copy_names`.
-
-        Args:
-            copies: their number.
-            out: path of the new .osm.pbf.
-
-        Returns:
-            The layout of the copies.
-
-        Raises:
-            MapError: the copies do not fit on Earth, or a file cannot be read or written.
+        `models.sources.osm.copy_names`. Raise MapError if they do not fit on Earth, or a file cannot be read or
+        written.
         """
         block, header = CopyGrid(self.box, copies), osmium.io.Header()
         header.add_box(osmium.osm.Box(*block.bounds()))

@@ -25,11 +25,7 @@ class Region:
 
     @classmethod
     def parse(cls, text: str) -> "Region":
-        """Parse "west,south,east,north" or the path of a GeoJSON file.
-
-        Raises:
-            MapError: it is neither, or encloses nothing.
-        """
+        """Parse "west,south,east,north" or the path of a GeoJSON file; raise MapError if it encloses nothing."""
         path = Path(text)
         try:
             shape = _parse_geojson(path.read_text(encoding="utf-8")) if path.is_file() else _parse_box(text)
@@ -56,11 +52,7 @@ def _parse_geojson(text: str) -> shapely.Geometry:
 
 @contextmanager
 def extracted_file(path: Path, region: Region | None) -> Iterator[Path]:
-    """Yield a file with the part of a file in a region, until the block ends; without a region, yield the file itself.
-
-    Raises:
-        MapError: it is not an OpenStreetMap file, cannot be read, or has nothing there.
-    """
+    """Yield a file with the part of a file in a region (the file itself without a region), until the block ends."""
     if region is None:
         yield path
         return
@@ -73,18 +65,10 @@ def extracted_file(path: Path, region: Region | None) -> Iterator[Path]:
 
 
 def extract(path: Path, region: Region, out: Path) -> None:
-    """Write the elements with a node in a region, with all their nodes, and the region's box as the file's.
+    """Write the elements with a node in a region, with all their nodes, and the region's box, as an .osm.pbf.
 
     The file is read several times and never held in memory, which only needs a bit for each id. An element around the
-    region without a node in it is left out.
-
-    Args:
-        path: an OpenStreetMap file.
-        region: the part to extract.
-        out: path of the new .osm.pbf.
-
-    Raises:
-        MapError: it cannot be read, or has nothing there.
+    region without a node in it is left out. Raise MapError if the file cannot be read, or has nothing there.
     """
     header = osmium.io.Header()
     header.add_box(osmium.osm.Box(*region.shape.bounds))

@@ -33,20 +33,7 @@ class NumberedFeature:
 
 
 class FeatureStrips:
-    """The N features of a map, each stored in every strip that it spans.
-
-    Args:
-        directory: an empty one.
-        features: in batches.
-
-    Raises:
-        DataError: the disk is full.
-
-    Attributes:
-        numbers: of the strips that have features, from west to east.
-        order: [N] the class of each feature, by its number.
-        heights_m: [N, 2] base and height of each.
-    """
+    """The N features of a map, given in batches, each stored in every strip that it spans, in an empty directory."""
 
     def __init__(self, directory: Path, features: Iterable[Sequence[Feature]]) -> None:
         self._directory, count = directory, 0
@@ -58,6 +45,7 @@ class FeatureStrips:
             heights.append(np.array([(feature.base_m, feature.height_m) for feature in batch]))
             numbers |= self._store(count, batch)
             count += len(batch)
+        # Numbers of strips with features, from west to east; class [N] and base and height [N, 2] of each feature
         self.numbers, self.order, self.heights_m = sorted(numbers), np.concatenate(order), np.concatenate(heights)
 
     def _store(self, first: int, features: Sequence[Feature]) -> set[int]:

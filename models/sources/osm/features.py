@@ -91,10 +91,7 @@ def find_joins(features: Sequence[Feature]) -> tuple[Ints, Ints]:
 
     Lines and surfaces of one label, name and colour that touch are one (a road in five ways); upright features within a
     metre are one, named by the first in the table (a lamp and its sign); a crossing mapped as a node is left out where
-    it is also mapped as a way.
-
-    Returns:
-        Rows [D] of those that are left out, and [E, 2] pairs of the others that are one, the lower first.
+    it is also mapped as a way. Return rows [D] of those that are left out, and pairs [E, 2] of others, the lower first.
     """
     is_crossing = np.array([f.label == "crossing" for f in features], np.bool_)
     is_node = np.array([f.source_id.startswith("node/") for f in features], np.bool_)

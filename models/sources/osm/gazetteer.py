@@ -66,15 +66,7 @@ class _OsmObject:
 
 
 def load_gazetteer(path: Path, frame: Frame) -> Gazetteer:
-    """Read all objects of an OpenStreetMap file that a passer-by could name.
-
-    Args:
-        path: the file that the map was read from.
-        frame: of the map.
-
-    Raises:
-        MapError: it cannot be read.
-    """
+    """Read all objects of a map's file that a passer-by could name; raise MapError if it cannot be read."""
     objects, pieces, walked = GazetteerBuilder(), StreetPieces(), Spool()
     walked.add({"segments_m": concatenate_segments([])})
     for batch in _read_batches(path):

@@ -94,24 +94,12 @@ class ImportedMap:
 
 
 class _StripImporter:
-    """Collects the results of strips, except their pieces.
-
-    Args:
-        strips: of features.
-        instances: of these features.
-        drawings: collects the outlines.
-
-    Attributes:
-        drawings: the argument.
-        names: of the I instances that have one, by number.
-        sources: [I] of the instances.
-        rgb: [I, 3] of the instances.
-    """
+    """Collects the results of strips, except their pieces, for I instances."""
 
     def __init__(self, strips: FeatureStrips, instances: FeatureInstances, drawings: OutlinesBuilder) -> None:
         count = len(instances.first)
         self._strips, self._instances, self.drawings = strips, instances, drawings
-        self.names = dict[int, str]()
+        self.names = dict[int, str]()  # by number of the instance
         self.sources = np.empty(count, "S32")
         self.rgb = np.empty((count, 3), np.float32)
 

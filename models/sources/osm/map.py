@@ -1,7 +1,7 @@
-"""Read OpenStreetMap (.osm.pbf, .osm) into a CityMap.
+"""Read OpenStreetMap (.osm.pbf, .osm) into a CityMap with extruded geometry (docs/formats.md, OpenStreetMap).
 
-A map with extruded geometry, not LiDAR (docs/formats.md, OpenStreetMap): footprints, lines and nodes are read as
-mapped and raised as `classes.toml` says. Colours come from colour, material and surface tags.
+Footprints, lines and nodes are read as mapped and raised as `classes.toml` says. Colours come from colour, material and
+surface tags.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -57,12 +57,7 @@ Batch = tuple[list[_Element], Geometries]  # with the geometry of each, in degre
 def load_osm(path: Path, name: str | None = None) -> CityMap:
     """Read an OpenStreetMap file into a city map, in a local frame at the middle of the extract.
 
-    Args:
-        path: .osm.pbf, .pbf, .osm, .osm.gz or .osm.bz2.
-        name: name of the map; the file's name up to the first dot by default.
-
-    Raises:
-        MapError: the file is missing, empty, cut short, not OpenStreetMap, too large, or has nothing usable.
+    Its default name is the file's up to the first dot. Raise MapError if the file is missing, not usable or too large.
     """
     frame, box = read_frame_and_box(path)
     with scratch() as directory:
@@ -73,10 +68,7 @@ def load_osm(path: Path, name: str | None = None) -> CityMap:
 
 
 def read_frame_and_box(path: Path) -> tuple[Frame, Box | None]:
-    """Return the frame of a file's map, and the box in its header if a map can be that large.
-
-    Only a file without such a box is read in full.
-    """
+    """Return the frame of a file's map, and its header's box; only a file without a possible box is read in full."""
     box = _read_box(path)
     if box is not None and _is_possible(box):
         return _centered_frame(box), box

@@ -79,17 +79,12 @@ class DiskSink:
 
 
 class ColumnWriter:
-    """Writes cells and poses as columns, one by one.
-
-    Attributes:
-        words: labels, colours and strategies; columns hold their numbers.
-        cell_ids: in order of the rows.
-    """
+    """Writes cells and poses as columns, one by one; columns hold the numbers of `words`."""
 
     def __init__(self, sink: Sink) -> None:
         self._sink = sink
         self.words: dict[str, int] = {}
-        self.cell_ids: list[str] = []
+        self.cell_ids: list[str] = []  # in order of the rows
         self._objects = 0
         self._cells: dict[str, tuple[int, dict[int, int]]] = {}  # row, and the rows of its objects by id
 

@@ -66,14 +66,10 @@ class StoreStrings(BaseModel):
 
 
 def load_data(data: Path, split: str | None = None) -> PoseStore:
-    """Load the cells and poses of a split, from a store or from the published layout.
+    """Load the cells and poses of a split (see `select_scenes`), from a store or from the published layout.
 
-    Args:
-        data: either. The published layout is converted in memory, every time: convert large ones once.
-        split: as `models.sources.kitti360pose.files.select_scenes`.
-
-    Raises:
-        DataError: it is neither, or not usable; the message names file and field.
+    The published layout is converted in memory, every time: convert large ones once. Raise DataError, with file and
+    field, if the data are neither, or not usable.
     """
     if (data / MANIFEST).is_file():
         return open_store(data).split(split)
@@ -87,16 +83,10 @@ def load_data(data: Path, split: str | None = None) -> PoseStore:
 
 
 def convert(data: Path, out: Path, split: str | None = None, progress: Progress | None = None) -> PoseStore:
-    """Write a store from the published layout; one cell's points are in memory at a time.
+    """Write a store from a split (see `select_scenes`) of the published layout, with one cell's points in memory.
 
-    Args:
-        data: root of the published layout.
-        out: the store, a new or empty directory; it appears when all is written.
-        split: scenes to convert, as `models.sources.kitti360pose.files.select_scenes`.
-        progress: called with (bytes of points done, approximate total).
-
-    Raises:
-        DataError: `out` has files in it, or `data` is not usable; nothing is left behind.
+    `out`, a new or empty directory, appears when all is written; `progress` gets (bytes of points done, approximate
+    total). Raise DataError, and leave nothing behind, if `out` has files in it, or `data` is not usable.
     """
     if out.exists() and (not out.is_dir() or any(out.iterdir())):
         raise DataError(f"{out}: exists and is not empty; name a new directory")
@@ -113,13 +103,9 @@ def convert(data: Path, out: Path, split: str | None = None, progress: Progress 
 
 
 def open_store(path: Path) -> PoseStore:
-    """Open a store with its columns mapped into memory.
+    """Open a store with its columns mapped into memory; raise DataError if it is not one, or inconsistent.
 
-    Args:
-        path: a directory that `convert` wrote. Sizes and structure are checked, checksums are not.
-
-    Raises:
-        DataError: it is not a store, or incomplete, or inconsistent.
+    Sizes and structure are checked, checksums are not.
     """
     manifest = _read_manifest(path)
     for name, record in manifest.files.items():

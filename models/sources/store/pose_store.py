@@ -38,11 +38,7 @@ class StoredScene:
 
 @dataclass(frozen=True, eq=False)
 class PoseStore:
-    """Cells and poses of some scenes of a data set.
-
-    Rows count within this view: cell row n is `cell_table().ids[n]`, instance row r is row r of its parts, pose row q
-    is row q of `poses`.
-    """
+    """Cells and poses of some scenes of a data set; cell, instance and pose rows count within this view."""
 
     source: Path
     scenes: tuple[StoredScene, ...]  # in order
@@ -67,14 +63,7 @@ class PoseStore:
         return cls(source, scenes, columns, words, cell_ids, scenes, np.arange(num_cells), np.arange(num_poses))
 
     def split(self, split: str | None) -> "PoseStore":
-        """Return the view of some of its scenes.
-
-        Args:
-            split: as `models.sources.kitti360pose.files.select_scenes`.
-
-        Raises:
-            DataError: there is no such scene.
-        """
+        """Return the view of some of its scenes; arguments and errors as `select_scenes`."""
         names = select_scenes([scene.name for scene in self.scenes], split, self.source)
         chosen = [n for n, scene in enumerate(self.all_scenes) if scene.name in names]
         cell_scene = self.columns["cell_scene"]
@@ -102,11 +91,7 @@ class PoseStore:
         return numbers
 
     def cell_table(self) -> CellTable:
-        """Return the cells with their parts, world metres; each part is an instance, numbered by its row.
-
-        Raises:
-            DataError: the cells are not of one size.
-        """
+        """Return the cells with their parts, world metres; each part is an instance, numbered by its row."""
         sizes = self.columns["cell_size_m"][self.cell_rows]
         if (sizes != sizes[0]).any():
             raise DataError(
@@ -137,11 +122,7 @@ class PoseStore:
 
     @cached_property
     def poses(self) -> PoseTable:
-        """Return the positions with their descriptions.
-
-        Raises:
-            DataError: a scene has cells only.
-        """
+        """Return the positions with their descriptions; raise DataError if a scene has cells only."""
         for scene in self.scenes:
             if scene.poses is None:
                 raise DataError(
@@ -163,12 +144,7 @@ class PoseStore:
         )
 
     def instance_points(self, row: int) -> tuple[Floats, Floats]:
-        """Return the points of one instance, as stored.
-
-        Returns:
-            xyz: [P, 3] cell units, float32 or float64.
-            rgb: [P, 3] 0..1, float32 or float64.
-        """
+        """Return the points [P, 3], cell units, and colours [P, 3], 0..1, of one instance (float32 or float64)."""
         return self._points(int(self._object_rows[row]))
 
     def _sample(self, cells: Ints) -> Floats:

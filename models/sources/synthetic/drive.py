@@ -19,9 +19,8 @@ CELLS_PER_M = 0.6  # of street, at most: a band of 60 m, a cell for each 100 squ
 def draw_drive(rng: Rng, plan: Plan, land: Land, cells: float) -> Floats:
     """Draw a drive along the streets, each once where possible, until some number of cells is passed.
 
-    Returns:
-        [F, 3] float64 poses about a metre apart, plan frame, with heights above the ground; all the plan's streets
-        if these are too few.
+    Return poses [F, 3] (float64) about a metre apart, plan frame, with heights above the ground; all the plan's streets
+    if these are too few.
     """
     walk = Walk(rng, plan)
     length_m = cells / CELLS_PER_M
@@ -74,11 +73,7 @@ def count_cells(locations_m: Floats, config: PrepareConfig) -> int:
 
 
 class Walk:
-    """A growing path from crossing to crossing.
-
-    Attributes:
-        track: [M, 2] positions in the plan, about a metre apart, in pieces.
-    """
+    """A growing path from crossing to crossing."""
 
     def __init__(self, rng: Rng, plan: Plan) -> None:
         self._rng, self._plan = rng, plan

@@ -1,7 +1,7 @@
 """Synthetic towns, part 4: the plan of the streets, and its position in the world.
 
-The plan is a grid of streets with some left out; a smooth map bends and turns it and sets it on hills. All objects
-stand in the plan and are bent with it.
+The plan is a grid of streets with some left out. A smooth map bends and turns it, with all its objects, and sets it on
+hills.
 """
 
 from dataclasses import dataclass

@@ -1,7 +1,4 @@
-"""Synthetic towns, part 2: the objects in them, each as points around its foot.
-
-Shapes, sizes and numbers of points are drawn for every instance, so that no two are alike.
-"""
+"""Synthetic towns, part 2: the objects in them, each as points around its foot and drawn anew for every instance."""
 
 from collections.abc import Callable
 

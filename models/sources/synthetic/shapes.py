@@ -1,7 +1,4 @@
-"""Synthetic towns, part 1: points on the surfaces of simple bodies.
-
-A body has its own frame: x along the street, y away from it, z up from the ground, metres.
-"""
+"""Synthetic towns, part 1: points on simple bodies; x along the street, y away from it, z up, metres."""
 
 from typing import Any, NamedTuple
 
@@ -53,14 +50,9 @@ def ground(rng: Rng, x: tuple[float, float], y: tuple[float, float], spacing_m: 
 
 
 def box(rng: Rng, size: tuple[float, float, float], spacing_m: float, hidden: float = 1.0, z: float = 0.0) -> Floats:
-    """Return points [P, 3] on a box whose front is at y = 0, in the middle of x.
+    """Return points [P, 3] on a box (width, depth, height), its front at y = 0 and in the middle of x, its bottom at z.
 
-    Args:
-        rng: draws the points.
-        size: width, depth, height.
-        spacing_m: between points of the front.
-        hidden: factor of the spacing on the back and top; half as much on the sides.
-        z: height of its bottom.
+    `hidden` is a factor of the spacing on the back and top; half as much on the sides.
     """
     w, d, h = size
     side = spacing_m * (1 + hidden) / 2

@@ -32,12 +32,7 @@ class Scan:
 
 
 class Site:
-    """Collects objects in the plan's frame, and keeps those near the drive.
-
-    Attributes:
-        rng: draws all objects.
-        habits: of the town.
-    """
+    """Collects objects in the plan's frame, and keeps those near the drive."""
 
     def __init__(self, rng: Rng, habits: Habits, land: Land, drive_m: Floats) -> None:
         self.rng, self.habits, self._land = rng, habits, land
@@ -67,13 +62,9 @@ class Site:
         return cell[:, 0], cell[:, 1]
 
     def add(self, label: str, spot: LocalFrame, xyz: Floats, chain: str = "") -> None:
-        """Add an object, if the drive comes near it.
+        """Add an object with points [P, 3] in its frame, if the drive comes near it.
 
-        Args:
-            label: its class.
-            spot: its frame.
-            xyz: [P, 3] points in that frame.
-            chain: objects added under one name are one instance, until the chain is cut; "" for an instance of its own.
+        Objects added under one name `chain` are one instance, until the chain is cut.
         """
         rule = CLASSES[CLASS_ROW[label]]
         if not rule.is_stuff and self.distance_to_drive_m(spot) > SCAN_REACH_M:
@@ -101,10 +92,8 @@ class Site:
     def scan(self, own_pieces: bool = False) -> Scan:
         """Return all points, numbered and coloured, by instance as far as these were added together.
 
-        More than 999 instances of a class, which KITTI-360 cannot have, are numbered from (100 + semantic) * 1000.
-
-        Args:
-            own_pieces: number each piece of ground, instead of KITTI-360's single number for all of a class.
+        More than 999 instances of a class, which KITTI-360 cannot have, are numbered from (100 + semantic) * 1000. With
+        `own_pieces`, so is each piece of ground, instead of KITTI-360's single number for all of a class.
         """
         classes = np.array(self._classes)
         shades = [draw_shade(self.rng, self.habits, row) for row in self._classes]

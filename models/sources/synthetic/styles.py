@@ -116,16 +116,7 @@ def draw_habits(rng: Rng, style: Style) -> Habits:
 
 
 def draw_shade(rng: Rng, habits: Habits, class_row: int) -> tuple[Floats, float]:
-    """Draw the mean colour of an instance, and how much its points' colours vary.
-
-    Args:
-        rng: draws it.
-        habits: of the town.
-        class_row: of the instance's class in `CLASSES`.
-
-    Returns:
-        [3] mean in 0..255, and the standard deviation of its points' brightness.
-    """
+    """Draw the mean colour [3] (0..255) of an instance, and the standard deviation of its points' brightness."""
     center = KITTI360_PALETTE.centers[int(rng.choice(len(habits.colours[0]), p=habits.colours[class_row]))]
     mean = np.array(center) * habits.exposure + rng.normal(0, 5) + rng.normal(0, 1.8, 3)
     return np.clip(mean, 6, 249), float(min(rng.uniform(6, 26), mean.mean() / 2.5))

@@ -1,9 +1,8 @@
 """Synthetic towns in KITTI-360's raw format; nothing in them was scanned.
 
-They stand in for KITTI-360, which cannot be redistributed: streets, blocks and furniture with its classes, greyish
-colours and point densities, so that they pass through the same preparation (docs/formats.md) and give similar cells.
-The scenes have the names of KITTI-360's drives, so that the standard split works on the prepared scenes.
-Every number drawn comes from the seed: one seed, one set of files.
+They stand in for KITTI-360, which cannot be redistributed, with its classes, greyish colours and point densities, so
+that they pass through the same preparation (docs/formats.md) and give similar cells. They have the names of its drives,
+so that the standard split works. Every number drawn comes from the seed: one seed, one set of files.
 """
 
 from collections.abc import Callable, Iterator
@@ -61,21 +60,17 @@ def write_towns(
     progress: Callable[[int, int], None] | None = None,
     pieces: str = PIECES[0],
 ) -> tuple[str, ...]:
-    """Make the towns of a scale and write them as KITTI-360's raw files.
+    """Make the towns of a scale and write them as KITTI-360's raw files; return the scenes' folders.
 
     Args:
         out: folder, new or empty.
         scale: one of SCALES.
-        seed: not negative; the same seed gives the same bytes.
+        seed: the same seed gives the same bytes.
         progress: called with (towns written, towns to write).
         pieces: one of PIECES; the points are the same with both.
 
-    Returns:
-        The scenes' folders, in order of STANDARD_SPLITS.
-
     Raises:
-        DataError: unknown scale or pieces, negative seed, or a folder that is not empty or cannot be written;
-            nothing is left.
+        DataError: an argument is wrong, or the folder is not empty or cannot be written; nothing is left.
     """
     if scale not in SIZES:
         raise DataError(f"scale '{scale}' is unknown; choose from: {', '.join(SCALES)}")
@@ -101,11 +96,7 @@ def write_towns(
 
 @contextmanager
 def _whole_or_not(out: Path) -> Iterator[Path]:
-    """Wrap `new_directory`.
-
-    Raises:
-        DataError: it cannot be written.
-    """
+    """Wrap `new_directory`; raise DataError if it cannot be written."""
     try:
         with new_directory(out) as root:
             yield root
@@ -114,14 +105,7 @@ def _whole_or_not(out: Path) -> Iterator[Path]:
 
 
 def build_town(rng: np.random.Generator, style: Style, cells: float, own_pieces: bool = False) -> Town:
-    """Make one town.
-
-    Args:
-        rng: draws everything.
-        style: type of town (`STYLES`).
-        cells: about how many cells the preparation should find; the drive ends when they are reached.
-        own_pieces: see `Site.scan`.
-    """
+    """Make one town with about some number of cells; see `Site.scan` for `own_pieces`."""
     plan, land, habits = draw_plan(rng, style, cells), draw_land(rng, style), draw_habits(rng, style)
     drive = land.to_world(draw_drive(rng, plan, land, cells / KEPT_CELL_SHARE))
     site = Site(rng, habits, land, drive)
