@@ -31,7 +31,7 @@ from app.workers.remote import open_workers
 from index.build.artifact import read_aliases
 from index.build.manifest import MANIFEST
 
-ABOUT = """Say in plain words what you see around you, and it says where in the city you are.
+ABOUT = """Describe in plain words what you see around you, and Hereabouts tells you where in the city you are.
 
 Errors are problem+json (RFC 9457); `code` is stable:
 

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Installs the pinned torch: from wheels/ if one lies there, else the build that TORCH_BACKEND names, else
-# whatever the package registry has (on Linux that is the CUDA build, several GB, which runs on a CPU too).
+# Installs the pinned torch: a wheel in wheels/ if there is one, else the build that TORCH_BACKEND names, else the
+# package registry's (on Linux the CUDA build of several GB, which also runs on a CPU).
 set -eu
 backend=$1
 pin=$(grep '^torch==' constraints.txt)

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Puts the machine code that was compiled with the image where numba may write, then becomes the command. What was
-# compiled for another kind of processor is compiled anew: twenty seconds of the first start.
-[ -d "$NUMBA_CACHE_DIR" ] || cp -r /opt/numba "$NUMBA_CACHE_DIR" || echo "start: no room in $NUMBA_CACHE_DIR; compiling instead" >&2
+# Copies numba's cache from the image to where numba may write, then runs the command. On another kind of processor
+# numba compiles again, which adds twenty seconds to the first start.
+[ -d "$NUMBA_CACHE_DIR" ] || cp -r /opt/numba "$NUMBA_CACHE_DIR" || echo "start: cannot write $NUMBA_CACHE_DIR; numba compiles again" >&2
 exec "$@"

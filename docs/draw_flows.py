@@ -71,7 +71,7 @@ def description(axes: Axes) -> Box:
                  "MNCL: one vector a description")  # fmt: skip
     vector = box(axes, (left, 39.5, half, TALL), "index", "Vector search", "index/stores/, index/answering/ranking.py",
                  "FAISS: the 100 nearest cells")  # fmt: skip
-    inverted = box(axes, (right, 39.5, half, TALL), "models", "Inverted list", "models/posterior/posterior.py",
+    inverted = box(axes, (right, 39.5, half, TALL), "models", "Inverted list", "models/posterior/statements.py",
                    "class, colour, direction: 100 cells")  # fmt: skip
     grid = box(axes, (x, 26.5, wide, TALL), "models", "Posterior on a grid of 1.5 m", "models/posterior/",
                "the likelihood of all hints and mentions at every node")  # fmt: skip
@@ -134,7 +134,7 @@ def draw() -> Figure:
     start, end = files[0] - files[2] / 2, reading[0] + reading[2] / 2
     arrow(axes, (start, reading[1]), (end, reading[1]))
     note: dict[str, Any] = {"ha": "center", "va": "top", "fontsize": 6.5, "color": INK, "style": "italic"}
-    axes.text((start + end) / 2, reading[1] - 1, "opened when\nthe service\nstarts", **note)
+    axes.text((start + end) / 2, reading[1] - 1, "opened at the\nstart and when\nthe alias moves", **note)
     for n, (layer, meaning) in enumerate(LAYERS.items()):
         corner = (79, 15 - 4.2 * n)
         axes.add_patch(

@@ -79,7 +79,7 @@ def heat(page: Page) -> None:
 def report(page: Page) -> None:
     """Show the report of an evaluation."""
     page.click("text=Measure how well it does")
-    texts = Path(__file__).parents[1] / "models/reports/people/helsinki_west.jsonl"
+    texts = Path(__file__).parents[1] / "models/reports/texts/helsinki_west.jsonl"
     rows = [json.loads(line) for line in texts.read_text().splitlines()[:40]]
     queries = [{"description": row["text"], "position": row["goal"][::-1]} for row in rows]
     page.fill("#own", json.dumps({"queries": queries, "crs": "wgs84"}))

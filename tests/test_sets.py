@@ -28,7 +28,7 @@ def test_a_set_is_what_its_manifest_says(entry) -> None:
 
 
 def test_every_file_of_texts_is_in_the_manifest() -> None:
-    files = [*REPORTS.glob("people/*.jsonl"), *REPORTS.glob("towns/*.json")]
+    files = [*REPORTS.glob("texts/*.jsonl"), *REPORTS.glob("towns/*.json")]
     assert {str(path.relative_to(REPORTS)) for path in files} == {entry["file"] for entry in SETS}
 
 
@@ -52,5 +52,5 @@ def test_sets_of_different_roles_share_no_text() -> None:
 
 def test_the_reader_of_cues_has_not_read_what_was_written_as_a_test() -> None:
     read = {json.loads(line)["text"] for path in LABELLED_DIR.glob("*.jsonl") for line in path.read_text().splitlines()}
-    for path in REPORTS.glob("people/*_test*.jsonl"):
+    for path in REPORTS.glob("texts/*_test*.jsonl"):
         assert not read & {text["text"] for text in texts_of(path)}

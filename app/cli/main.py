@@ -48,7 +48,7 @@ class _Commands(TyperGroup):
 
 app = typer.Typer(
     cls=_Commands,
-    help="Say in plain words what you see around you, and it says where in the city you are.",
+    help="Describe in plain words what you see around you, and Hereabouts tells you where in the city you are.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_show_locals=False,
