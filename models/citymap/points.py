@@ -72,8 +72,7 @@ class PointTable:
 def tile_keys(xyz: Floats) -> Ints:
     """Return one integer [P] for the tile of each point; the tiles of a column are numbered from south to north."""
     tile = np.floor(xyz[:, :2] / INDEX_TILE_M).astype(np.int64)
-    keys: Ints = _tile_key(tile[:, 0], tile[:, 1])
-    return keys
+    return _tile_key(tile[:, 0], tile[:, 1])
 
 
 def _tile_key(column: Any, row: Any) -> Any:
@@ -84,8 +83,7 @@ def ranges(begin: Ints, end: Ints) -> Ints:
     """Return the integers begin[0]..end[0]-1, begin[1]..end[1]-1 and so on, one range after the other."""
     sizes = end - begin
     offset = np.repeat(begin - (np.cumsum(sizes) - sizes), sizes)
-    result: Ints = np.arange(sizes.sum()) + offset
-    return result
+    return np.arange(sizes.sum()) + offset
 
 
 def bounding_corners(points_m: Floats) -> tuple[Floats, Floats]:
@@ -101,8 +99,7 @@ def thin_to_spacing(points: Floats, spacing_m: float) -> Floats:
 def block_keys(points: Floats, spacing_m: float) -> Ints:
     """Return one integer [P] for the square block of each point, ascending from west to east, then south to north."""
     block = np.floor(points[:, :2] / spacing_m).astype(np.int64)
-    keys: Ints = _tile_key(block[:, 0], block[:, 1])
-    return keys
+    return _tile_key(block[:, 0], block[:, 1])
 
 
 def first_in_voxel(xyz: Floats, voxel_m: float) -> Ints:

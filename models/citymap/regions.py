@@ -22,10 +22,7 @@ class SplitRegion:
 
     def contains(self, x_m: Floats, margin_m: float) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
         """Whether the interval of `margin_m` around each x_m [N] lies fully in the region."""
-        inside: np.ndarray[tuple[int], np.dtype[np.bool_]] = (x_m - margin_m >= self.west_m) & (
-            x_m + margin_m < self.east_m
-        )
-        return inside
+        return (x_m - margin_m >= self.west_m) & (x_m + margin_m < self.east_m)
 
     def cells(self, cells: CellTable) -> CellTable:
         """Return the cells that lie fully in the region."""
@@ -33,8 +30,7 @@ class SplitRegion:
 
     def locations(self, locations_m: Floats) -> Floats:
         """Return the locations whose hints all lie in the region."""
-        inside: Floats = locations_m[self.contains(locations_m[:, 0], HINT_REACH_M)]
-        return inside
+        return locations_m[self.contains(locations_m[:, 0], HINT_REACH_M)]
 
 
 def split_regions(cells: CellTable) -> dict[str, SplitRegion]:

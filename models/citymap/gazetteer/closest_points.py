@@ -42,8 +42,7 @@ class ClosestPoints:
     @property
     def distance_m(self) -> Floats:
         """Return the distances [P]."""
-        far: Floats = np.hypot(*self.offset_m.T)
-        return far
+        return np.hypot(*self.offset_m.T)
 
 
 def find_closest_points(
@@ -123,8 +122,7 @@ def _offset_to_segment(x: float, y: float, ends: Floats) -> tuple[float, float]:
 @compiled
 def _length(offset: tuple[float, float]) -> float:
     """Return a length in metres; this takes a third of the time of `hypot`, which guards against overflow."""
-    length_m: float = np.sqrt(offset[0] * offset[0] + offset[1] * offset[1])
-    return length_m
+    return np.sqrt(offset[0] * offset[0] + offset[1] * offset[1])
 
 
 @compiled

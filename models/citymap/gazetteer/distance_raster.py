@@ -107,10 +107,7 @@ class DistanceRaster:
         square, block_index = distances.squares[:, column, row], (column // BLOCK_PX, row // BLOCK_PX)
         block = distances.blocks[:, *block_index]
         limit = np.where(distances.is_near[block_index], self._limits[block], self._limits[0])
-        distance_m: Floats = np.where(
-            square <= limit, self.steps_m[np.minimum(square, limit)], self.block_steps_m[block]
-        )
-        return distance_m
+        return np.where(square <= limit, self.steps_m[np.minimum(square, limit)], self.block_steps_m[block])
 
     def mean_and_max(self, distances: GroupDistances, by_step: Floats, by_block: Floats) -> tuple[float, float]:
         """Return the mean and maximum (at least 0) over cells of the best group's value; arguments as `add_best`."""
@@ -154,14 +151,12 @@ class DistanceRaster:
             empty.ravel()[pixels] = False
             farther = distance_transform_edt(empty)[is_far].astype(np.int64) - reach
             squares[is_far] = np.minimum(reach**2 + 1 + farther, unreachable)
-        result: SquaredDistances = np.minimum(squares, np.uint16(unreachable))
-        return result
+        return np.minimum(squares, np.uint16(unreachable))
 
     def _block_of(self, pixels: Ints) -> Ints:
         """Return the block [n] of each pixel."""
         column, row = np.divmod(pixels, self.shape[1])
-        block: Ints = column // BLOCK_PX * self._blocks[1] + row // BLOCK_PX
-        return block
+        return column // BLOCK_PX * self._blocks[1] + row // BLOCK_PX
 
 
 def _step_lengths(reach: int) -> Floats:

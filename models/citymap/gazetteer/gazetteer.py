@@ -52,15 +52,13 @@ class Gazetteer:
     def middles_m(self) -> Floats:
         """Return the middle [O, 2] of each object's bounding box."""
         low, high = self._boxes
-        middle: Floats = (low + high) / 2
-        return middle
+        return (low + high) / 2
 
     @cached_property
     def reach_m(self) -> Floats:
         """Return the distance [O] from the middle of each object's bounding box to its corners."""
         low, high = self._boxes
-        reach: Floats = np.hypot(*((high - low) / 2).T)
-        return reach
+        return np.hypot(*((high - low) / 2).T)
 
     @cached_property
     def streets(self) -> Ints:

@@ -83,14 +83,12 @@ class ObjectTable(Sequence[GazetteerObject]):
     @property
     def has_name(self) -> Mask:
         """Whether each object [O] has a name."""
-        mask: Mask = np.diff(self._string_starts) > self._written.sum(axis=1)
-        return mask
+        return np.diff(self._string_starts) > self._written.sum(axis=1)
 
     @property
     def has_kind(self) -> Mask:
         """Whether each object [O] has a kind."""
-        mask: Mask = np.diff(self._kind_starts) > 0
-        return mask
+        return np.diff(self._kind_starts) > 0
 
     @property
     def is_street(self) -> Mask:

@@ -54,13 +54,12 @@ def closest_instances(
         [R] point, ascending, [R] instance and [R, 2] point minus the instance's closest point, in steps;
         the nearest first, (0, 0) inside an area.
     """
-    rows: tuple[Ints, Ints, npt.NDArray[np.int8]] = _closest_instances(
+    return _closest_instances(
         points_m.astype(np.float64), point_starts.astype(np.int64), centers_m[:, :2].astype(np.float64),
         rules.cell_size_m / 2 - TILE_SLACK_M, float(reach_m), float(step_m), MIN_GROUP_SHARE * rules.min_part_points,
         table.low, table.shape, table.tile_starts, table.tile, table.instance, table.form, table.point_count,
         table.bounds_m, table.crown_m, table.segment_starts, table.segments, table.link_starts, table.links,
     )  # fmt: skip
-    return rows
 
 
 @compiled
@@ -160,8 +159,7 @@ def _squared_box_distance(bounds_m: Floats, k: int, other_m: Floats) -> float:
     """Return the squared distance between the box of a piece and another box."""
     away_x = max(bounds_m[k, 0] - other_m[2], 0.0, other_m[0] - bounds_m[k, 2])
     away_y = max(bounds_m[k, 1] - other_m[3], 0.0, other_m[1] - bounds_m[k, 3])
-    square: float = away_x * away_x + away_y * away_y
-    return square
+    return away_x * away_x + away_y * away_y
 
 
 @compiled

@@ -83,8 +83,7 @@ def connected_pieces(table: PieceTable, cube: Ints, piece: Ints, is_linked: npt.
     target = np.minimum(np.searchsorted(key, wanted), len(key) - 1)
     is_in_cube = (key[target] == wanted) & is_linked[target] if len(key) else np.zeros(0, np.bool_)
     graph = coo_array((np.ones(is_in_cube.sum()), (source[is_in_cube], target[is_in_cube])), shape=(len(key),) * 2)
-    number: Ints = connected_components(graph, directed=False)[1]
-    return number
+    return connected_components(graph, directed=False)[1]
 
 
 def cut_pieces(
@@ -246,8 +245,7 @@ def _closest_points(geometry: Geometries, centers: Floats, starts: Ints) -> Floa
     best = np.flatnonzero(metres == np.repeat(least, sizes))
     group = np.repeat(np.arange(len(starts)), sizes)[best]
     first = best[np.diff(group, prepend=-1) != 0]
-    ends: Floats = shapely.get_coordinates(lines[first]).reshape(-1, 2, 2)[:, 1]
-    return ends
+    return shapely.get_coordinates(lines[first]).reshape(-1, 2, 2)[:, 1]
 
 
 def _empty(cubes: int) -> PartTable:

@@ -35,8 +35,7 @@ def _position(piece: int, runs: Ints) -> int:
     """Return the position of a piece among those of `pieces_near`, -1 if it is not among them."""
     for r in range(len(runs)):
         if runs[r, 0] <= piece < runs[r, 1]:
-            place: int = runs[r, 2] + piece - runs[r, 0]
-            return place
+            return runs[r, 2] + piece - runs[r, 0]
     return -1
 
 
@@ -120,8 +119,7 @@ def _connect(pieces: Ints, runs: Ints, kind: Ints, instance: Ints, link_starts: 
     for p in range(count):
         root = _root(parent, p)
         group[p] = inside[root] if inside[root] >= 0 else root
-    named: Ints = _number_by_first(group)
-    return named
+    return _number_by_first(group)
 
 
 @compiled

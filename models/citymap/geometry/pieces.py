@@ -100,13 +100,11 @@ class PieceTable:
     @cached_property
     def tile(self) -> Ints:
         """Return the column and row [K, 2] (int32) of each piece's tile."""
-        tile: Ints = _tiles(self.tile_starts, self.low, self.shape)
-        return tile
+        return _tiles(self.tile_starts, self.low, self.shape)
 
     def ground_lattice(self, pieces: Ints, spacing_m: float) -> Floats:
         """Return positions [n, 3] (float32) in areas, one in each square block with a corner or middle inside."""
-        places: Floats = spooled({"m": block} for block in self._lattice_batches(pieces, spacing_m))["m"]
-        return places
+        return spooled({"m": block} for block in self._lattice_batches(pieces, spacing_m))["m"]
 
     def _lattice_batches(self, pieces: Ints, spacing_m: float) -> Iterator[Floats]:
         """Yield the positions of `ground_lattice`, some pieces at a time."""
@@ -132,8 +130,7 @@ class PieceTable:
         xy = np.stack([low[area, 0] + nth // along[area], low[area, 1] + nth % along[area]], axis=1) * step_m
         areas = self.geometry(pieces)
         shapely.prepare(areas)
-        inside: Floats = xy[shapely.contains_xy(areas[area], *xy.T)]
-        return inside
+        return xy[shapely.contains_xy(areas[area], *xy.T)]
 
 
 @compiled
@@ -222,12 +219,10 @@ def _touching_pairs(
     reach = _running_end(group, interval[:, 1])
     touches = np.flatnonzero((group[1:] == group[:-1]) & (interval[1:, 0] <= reach[:-1] + TOUCHING_M))
     pairs: Ints = np.stack([piece[touches], piece[touches + 1]], axis=1)
-    different: Ints = pairs[pairs[:, 0] != pairs[:, 1]]
-    return different
+    return pairs[pairs[:, 0] != pairs[:, 1]]
 
 
 def _running_end(group: Ints, end: Floats) -> Floats:
     """Return the greatest end so far in each group; `group` ascends."""
     span = float(np.ptp(end)) + 1.0 if len(end) else 1.0
-    raised: Floats = np.maximum.accumulate(end + group * 2 * span) - group * 2 * span
-    return raised
+    return np.maximum.accumulate(end + group * 2 * span) - group * 2 * span

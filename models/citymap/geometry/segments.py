@@ -17,10 +17,7 @@ Steps = npt.NDArray[np.int16]
 
 def snap(geometry: Geometries) -> Geometries:
     """Return valid geometries with coordinates as they are stored; too thin ones become empty."""
-    result: Geometries = shapely.set_precision(
-        shapely.set_precision(geometry, STEP_M), 0.0
-    )  # precision 0 for later operations
-    return result
+    return shapely.set_precision(shapely.set_precision(geometry, STEP_M), 0.0)  # precision 0 for later operations
 
 
 def to_segments(geometry: Geometries, tile: Ints) -> tuple[Ints, Steps]:

@@ -92,8 +92,7 @@ def crown_reach_m(metres: Floats, crown_m: Floats) -> Floats:
     The closest point in space is on the trunk up to four radii away; beyond, it is on the ball of leaves.
     """
     reach: Floats = crown_m * metres / np.sqrt(metres**2 + (3 * crown_m) ** 2 + 1e-12)
-    nearer: Floats = np.where(metres > 4 * crown_m, reach, 0.0)
-    return nearer
+    return np.where(metres > 4 * crown_m, reach, 0.0)
 
 
 def sample_solid(solid: Solid) -> Floats:
@@ -104,8 +103,7 @@ def sample_solid(solid: Solid) -> Floats:
         xy = _along(solid.geometry, RAISED_SPACING_M[solid.shape])
     else:
         foot = np.array([*shapely.get_coordinates(solid.geometry)[0], solid.base_m])
-        placed: Floats = template_points(solid.shape, solid.height_m) + foot
-        return placed
+        return template_points(solid.shape, solid.height_m) + foot
     levels = solid.levels_m
     return np.column_stack([np.repeat(xy, len(levels), axis=0), np.tile(levels, len(xy))])
 
@@ -126,8 +124,7 @@ def _along(geometry: shapely.Geometry, spacing_m: float) -> Floats:
     steps = np.maximum(1, np.ceil(shapely.length(lines) / spacing_m).astype(int)) + 1
     share = np.concatenate([np.linspace(0, 1, n) for n in steps])
     points = shapely.line_interpolate_point(np.repeat(lines, steps), share, normalized=True)
-    xy: Floats = shapely.get_coordinates(points)
-    return xy
+    return shapely.get_coordinates(points)
 
 
 def template_points(shape: str, height_m: float) -> Floats:

@@ -113,10 +113,7 @@ def subtract_covers(tile: Ints, geometry: Geometries) -> Geometries:
 
 def _boxes_overlap(one: Geometries, other: Geometries) -> npt.NDArray[np.bool_]:
     a, b = shapely.bounds(one), shapely.bounds(other)
-    overlap: npt.NDArray[np.bool_] = (
-        (a[:, 0] < b[:, 2]) & (b[:, 0] < a[:, 2]) & (a[:, 1] < b[:, 3]) & (b[:, 1] < a[:, 3])
-    )
-    return overlap
+    return (a[:, 0] < b[:, 2]) & (b[:, 0] < a[:, 2]) & (a[:, 1] < b[:, 3]) & (b[:, 1] < a[:, 3])
 
 
 def split_connected(geometry: Geometries, dimensions: int) -> tuple[Ints, Geometries]:

@@ -94,8 +94,7 @@ def resolve_translation(key: str, presets: Json, translation: Json) -> Json:
 def read_translations(schema: Path, language: str) -> Json:
     """Read the names of the presets in a language."""
     content = read_json(schema / "dist" / "translations" / f"{language}.min.json")
-    presets: Json = content[language].get("presets", {}).get("presets", {})
-    return presets
+    return content[language].get("presets", {}).get("presets", {})
 
 
 def unique(items: Iterable[str]) -> list[str]:

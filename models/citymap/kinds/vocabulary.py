@@ -104,8 +104,7 @@ class Vocabulary:
 
     def _read_names(self) -> dict[str, list[str]]:
         """Read names by language; not kept, because each language is read at most once."""
-        names: dict[str, list[str]] = read_compressed_json(self._folder / "names.json.xz")["names"]
-        return names
+        return read_compressed_json(self._folder / "names.json.xz")["names"]
 
     @cached_property
     def _brands(self) -> Brands:

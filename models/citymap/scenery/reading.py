@@ -77,5 +77,4 @@ def _outlines(metadata: dict[str, str], tensors: dict[str, npt.NDArray[Any]], po
 @cache
 def load_look() -> dict[str, Any]:
     """Load the colours of the page: "light" and "dark" by use; "ground", "rising" and "walls" by label."""
-    look: dict[str, Any] = json.loads(LOOK_FILE.read_text())
-    return look
+    return json.loads(LOOK_FILE.read_text())

@@ -197,8 +197,7 @@ def _segments(shape: shapely.Geometry) -> Floats:
         return np.concatenate([points, points], axis=1)
     xy, line = shapely.get_coordinates(parts, return_index=True)
     goes_on = line[1:] == line[:-1]
-    segments: Floats = np.concatenate([xy[:-1], xy[1:]], axis=1)[goes_on]
-    return segments
+    return np.concatenate([xy[:-1], xy[1:]], axis=1)[goes_on]
 
 
 def _street_piece(item: _OsmObject, segments_m: Floats, frame: Frame) -> StreetPiece:

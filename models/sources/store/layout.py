@@ -58,8 +58,7 @@ def empty_column(name: str) -> Column:
 
 def in_cell_units(world: Floats, low: Floats, size: float) -> Floats:
     """Return points [P, 3] (float64) in cell units, as preparation computes them (rule 4), from float32 metres."""
-    units: Floats = (world - low) / size
-    return units
+    return (world - low) / size
 
 
 def colours_from_bytes(rgb: Column) -> Floats:

@@ -87,8 +87,7 @@ class PoseStore:
     @property
     def instance_ids(self) -> Ints:
         """Return the data set's number [R] of each instance, in rows of the cell table's parts."""
-        numbers: Ints = self.columns["object_instance"][self._object_rows]
-        return numbers
+        return self.columns["object_instance"][self._object_rows]
 
     def cell_table(self) -> CellTable:
         """Return the cells with their parts, world metres; each part is an instance, numbered by its row."""

@@ -38,10 +38,7 @@ def patch(rng: Rng, corner: npt.ArrayLike, along: npt.ArrayLike, up: npt.ArrayLi
     counts = np.maximum(1, np.round(np.linalg.norm(edges, axis=1) / spacing_m)).astype(int)
     steps = np.indices(tuple(counts)).reshape(2, -1).T
     share = (steps + rng.uniform(0.1, 0.9, steps.shape)) / counts
-    points: Floats = (
-        np.asarray(corner, dtype=np.float64) + share @ edges + rng.normal(0, SURFACE_NOISE_M, (len(steps), 3))
-    )
-    return points
+    return np.asarray(corner, dtype=np.float64) + share @ edges + rng.normal(0, SURFACE_NOISE_M, (len(steps), 3))
 
 
 def ground(rng: Rng, x: tuple[float, float], y: tuple[float, float], spacing_m: float, z: float = 0.0) -> Floats:
@@ -89,20 +86,17 @@ def blob(rng: Rng, count: int, center: npt.ArrayLike, radii: npt.ArrayLike) -> F
     direction = rng.normal(size=(count, 3))
     direction /= np.linalg.norm(direction, axis=1, keepdims=True)
     reach = rng.uniform(0.15, 1, (count, 1)) ** 0.4
-    points: Floats = np.asarray(center) + direction * reach * np.asarray(radii)
-    return points
+    return np.asarray(center) + direction * reach * np.asarray(radii)
 
 
 def shift(xyz: Floats, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Floats:
     """Return the points [P, 3] shifted."""
-    shifted: Floats = xyz + np.array([x, y, z])
-    return shifted
+    return xyz + np.array([x, y, z])
 
 
 def subsample(rng: Rng, xyz: Floats, share: float) -> Floats:
     """Return a random share of some points, in their order."""
-    chosen: Floats = xyz[rng.random(len(xyz)) < share]
-    return chosen
+    return xyz[rng.random(len(xyz)) < share]
 
 
 def pick(rng: Rng, weights: dict[str, float]) -> str:

@@ -126,5 +126,4 @@ def speckle(rng: Rng, mean: Floats, spread: Floats) -> Floats:
     """Return the colours [P, 3] (uint8) of points, given the mean [P, 3] and the spread [P] of the instance of each."""
     light = rng.standard_normal(len(mean), dtype=np.float32) * spread
     grain = rng.standard_normal((len(mean), 3), dtype=np.float32) * 3
-    coloured: Floats = np.clip(np.rint(mean + light[:, None] + grain), 0, 255).astype(np.uint8)
-    return coloured
+    return np.clip(np.rint(mean + light[:, None] + grain), 0, 255).astype(np.uint8)
