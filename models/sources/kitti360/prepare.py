@@ -31,7 +31,12 @@ def prepare_scene(
     """
     points = scene_points(raw, config)
     locations = choose_locations(raw, config)
-    centers = grid_centers(raw, locations, config)
+    centers = grid_centers(locations, config)
+    if not len(centers):
+        raise DataError(
+            f"scene '{raw.name}': field 'trajectory': its locations span {np.ptp(locations[:, :2], axis=0)} m in x "
+            "and y; cells need a metre in each"
+        )
     positions = shift_locations(locations, config, rng)
     step = _CubeProgress(len(centers) + len(positions), progress)
     cells = cut_cells(raw, points, centers, config, step)
@@ -64,10 +69,7 @@ def scene_points(raw: RawScene, config: PrepareConfig) -> PointTable:
 
 def choose_locations(raw: RawScene, config: PrepareConfig) -> Floats:
     """Return poses [L, 3] of the trajectory, spaced, near some thing (rule 3); raise DataError if there is none."""
-    spaced = raw.trajectory_m[:1]
-    for position in raw.trajectory_m[1:]:
-        if np.linalg.norm(spaced - position, axis=1).min() >= config.spacing_m:
-            spaced = np.vstack([spaced, position])
+    spaced = raw.trajectory_m[spaced_rows(raw.trajectory_m, config.spacing_m)]
     things = [instance.points_m for instance in raw.instances if instance.label not in raw.stuff]
     if things:
         tree = cKDTree(np.concatenate(things), balanced_tree=False, compact_nodes=False)
@@ -80,16 +82,22 @@ def choose_locations(raw: RawScene, config: PrepareConfig) -> Floats:
     )
 
 
-def grid_centers(raw: RawScene, locations_m: Floats, config: PrepareConfig) -> Floats:
+def spaced_rows(trajectory_m: Floats, spacing_m: float) -> Ints:
+    """Return the rows [L] of the poses that are far enough from all rows before (rule 3)."""
+    spaced_m = np.full_like(trajectory_m, np.inf)
+    rows: list[int] = []
+    for row, position in enumerate(trajectory_m):
+        if np.linalg.norm(spaced_m[: len(rows)] - position, axis=1).min(initial=np.inf) >= spacing_m:
+            spaced_m[len(rows)] = position
+            rows.append(row)
+    return np.array(rows)
+
+
+def grid_centers(locations_m: Floats, config: PrepareConfig) -> Floats:
     """Return the centres [N, 3] of the cells to cut, by x, then y (rule 4): whole metres, without the upper bound."""
     low, high = locations_m.min(axis=0).astype(int), locations_m.max(axis=0).astype(int)
     axes = [np.arange(low[axis], high[axis], config.cut.grid_m) for axis in range(2)]
     x, y = np.meshgrid(*axes, indexing="ij")
-    if not x.size:
-        raise DataError(
-            f"scene '{raw.name}': field 'trajectory': its locations span {np.ptp(locations_m[:, :2], axis=0)} m in x "
-            "and y; cells need a metre in each"
-        )
     return centers_within_reach(np.column_stack([x.ravel(), y.ravel()]), locations_m, config.cut.reach_m)
 
 

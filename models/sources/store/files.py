@@ -34,17 +34,6 @@ Progress = Callable[[int, int], None]
 Step = Callable[[int], None]
 
 
-class SceneRecord(BaseModel):
-    """A scene in the manifest; see models.sources.store.pose_store.StoredScene."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-    name: str
-    scene_name: str
-    cells: int
-    poses: int | None
-
-
 class StoreManifest(BaseModel):
     """The content of a store's manifest.json."""
 
@@ -52,7 +41,7 @@ class StoreManifest(BaseModel):
 
     kind: Literal["hereabouts pose store"] = "hereabouts pose store"
     format: int = FORMAT
-    scenes: tuple[SceneRecord, ...]
+    scenes: tuple[StoredScene, ...]
     files: dict[str, FileRecord]
 
 
@@ -98,7 +87,8 @@ def convert(data: Path, out: Path, split: str | None = None, progress: Progress 
             scenes = tuple(_add_scene(writer, data, name, n, step) for n, name in enumerate(names))
         strings = {"cell_ids": writer.cell_ids, "words": list(writer.words)}
         (directory / STRINGS).write_text(json.dumps(strings) + "\n")
-        _write_manifest(directory, scenes)
+        manifest = StoreManifest(scenes=scenes, files=file_records(directory))
+        (directory / MANIFEST).write_text(manifest.model_dump_json(indent=2) + "\n")
     return open_store(out)
 
 
@@ -122,8 +112,7 @@ def open_store(path: Path) -> PoseStore:
         problem = f"{STRINGS} has {len(strings.cell_ids)} cell ids, not {len(columns['cell_scene'])}"
     if problem:
         raise DataError(f"{path}: {problem}; {ADVICE}")
-    scenes = tuple(StoredScene(**scene.model_dump()) for scene in manifest.scenes)
-    return PoseStore.whole(path, scenes, columns, strings.words, strings.cell_ids)
+    return PoseStore.whole(path, manifest.scenes, columns, strings.words, strings.cell_ids)
 
 
 def _add_scene(writer: ColumnWriter, data: Path, name: str, number: int, step: Step | None) -> StoredScene:
@@ -143,11 +132,11 @@ def _add_scene(writer: ColumnWriter, data: Path, name: str, number: int, step: S
     scene_name = next(iter(keys.values())).scene_name
     poses_path = data / "poses" / f"{name}.pkl"
     if not poses_path.exists():
-        return StoredScene(name, scene_name, len(keys), None)
+        return StoredScene(name=name, scene_name=scene_name, cells=len(keys), poses=None)
     poses = load_poses(poses_path)
     check_poses(poses_path, poses, keys)
     writer.add_poses(poses)
-    return StoredScene(name, scene_name, len(keys), len(poses))
+    return StoredScene(name=name, scene_name=scene_name, cells=len(keys), poses=len(poses))
 
 
 def _byte_counter(data: Path, names: tuple[str, ...], progress: Progress) -> Step:
@@ -160,13 +149,6 @@ def _byte_counter(data: Path, names: tuple[str, ...], progress: Progress) -> Ste
         progress(done, total)
 
     return step
-
-
-def _write_manifest(directory: Path, scenes: tuple[StoredScene, ...]) -> None:
-    """Write the manifest of a directory."""
-    records = tuple(SceneRecord(name=s.name, scene_name=s.scene_name, cells=s.cells, poses=s.poses) for s in scenes)
-    manifest = StoreManifest(scenes=records, files=file_records(directory))
-    (directory / MANIFEST).write_text(manifest.model_dump_json(indent=2) + "\n")
 
 
 def _read_manifest(path: Path) -> StoreManifest:

@@ -7,11 +7,12 @@ from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
+from pydantic import BaseModel, ConfigDict
 
 from models.citymap.cells import CellTable, PartTable
 from models.citymap.point_sample import sample_points, stack_samples
 from models.citymap.points import Ints, ranges
-from models.citymap.types import Floats
+from models.citymap.types import DIRECTIONS, Floats, Hint
 from models.errors import DataError
 from models.sources.kitti360pose.files import select_scenes
 from models.sources.store.layout import (
@@ -23,17 +24,47 @@ from models.sources.store.layout import (
     pool_starts,
     starts_of,
 )
-from models.sources.store.pose_table import PoseTable
 
 
-@dataclass(frozen=True, slots=True)
-class StoredScene:
-    """A scene of a store."""
+class StoredScene(BaseModel):
+    """A scene of a store, as in its manifest."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
 
     name: str  # of its files, for example "2013_05_28_drive_0003_sync"
     scene_name: str  # of its cells, for example "0003"
     cells: int
     poses: int | None  # None if there was no file of poses
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PoseTable:
+    """Q positions with their descriptions, in columns."""
+
+    positions_m: Floats  # [Q, 3] float64 world metres
+    cell: Ints  # [Q] best cell, row in the store's cell table
+    strategies: tuple[str, ...]  # Q words: how the hints were chosen
+    starts: Ints  # [Q + 1] pose q has the hints starts[q] to starts[q + 1]
+    direction: Ints  # [H] index into DIRECTIONS
+    label: Ints  # [H] index into `words`
+    colour: Ints  # [H] index into `words`
+    instance: Ints  # [H] the instance meant, row in the cell table's parts; -1 if the best cell lacks it
+    words: tuple[str, ...]  # labels and colours
+
+    def __len__(self) -> int:
+        return len(self.cell)
+
+    def hints(self, q: int) -> tuple[Hint, ...]:
+        """Return the hints of pose q, in stored order."""
+        return tuple(
+            Hint(
+                DIRECTIONS[self.direction[h]],
+                self.words[self.label[h]],
+                self.words[self.colour[h]],
+                int(self.instance[h]) if self.instance[h] >= 0 else None,
+            )
+            for h in range(self.starts[q], self.starts[q + 1])
+        )
 
 
 @dataclass(frozen=True, eq=False)

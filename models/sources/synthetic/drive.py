@@ -4,9 +4,8 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 
-from models.citymap.cells import centers_within_reach
-from models.citymap.points import Ints
 from models.citymap.types import Floats
+from models.sources.kitti360.prepare import grid_centers, spaced_rows
 from models.sources.kitti360.rules import PrepareConfig
 from models.sources.synthetic.layout import Land, Node, Plan
 from models.sources.synthetic.shapes import Rng
@@ -41,35 +40,12 @@ def _end_row(world_m: Floats, cells: float) -> int | None:
     for n in range(2, len(rows) + 1):
         if n * config.spacing_m * CELLS_PER_M + 30 < cells:
             continue
-        passed = count_cells(world_m[rows[:n]], config)
+        passed = len(grid_centers(world_m[rows[:n]], config))
         if passed >= cells:
             is_nearer = passed - cells <= cells - before[0]
             return int(rows[n - 1]) + 1 if is_nearer or not before[1] else before[1]
         before = (passed, int(rows[n - 1]) + 1)
     return None
-
-
-def spaced_rows(world_m: Floats, spacing_m: float) -> Ints:
-    """Return the rows [L] of the poses that are locations: far enough from all before (docs/formats.md, rule 3)."""
-    spaced_m = np.full_like(world_m, np.inf)
-    rows: list[int] = []
-    for row, position in enumerate(world_m):
-        if ((spaced_m[: len(rows)] - position) ** 2).sum(axis=1).min(initial=np.inf) >= spacing_m**2:
-            spaced_m[len(rows)] = position
-            rows.append(row)
-    return np.array(rows)
-
-
-def count_cells(locations_m: Floats, config: PrepareConfig) -> int:
-    """Return how many cells will be cut around [L, 3] locations (rule 4), also those with too few instances."""
-    low, high = locations_m[:, :2].min(axis=0).astype(int), locations_m[:, :2].max(axis=0).astype(int)
-    axes = (np.arange(a, b, config.cut.grid_m) for a, b in zip(low, high, strict=True))
-    x, y = np.meshgrid(*axes, indexing="ij")
-    return (
-        len(centers_within_reach(np.column_stack([x.ravel(), y.ravel()]), locations_m, config.cut.reach_m))
-        if x.size
-        else 0
-    )
 
 
 class Walk:

@@ -59,14 +59,14 @@ def test_centres_are_a_grid_at_the_height_of_the_nearest_location(raw) -> None:
     locations = choose_locations(raw, PrepareConfig())
     detour = np.vstack([locations, [[5.5, 77.7, 9.0]]])
     for places in (locations, detour):
-        assert [tuple(c) for c in grid_centers(raw, places, PrepareConfig())] == naive_centers(places)
+        assert [tuple(c) for c in grid_centers(places, PrepareConfig())] == naive_centers(places)
     assert len({c[2] for c in naive_centers(detour)}) > 5
     assert len(naive_centers(detour)) < 10 * 8, "some are out of reach"
 
 
 def test_cells_equal_the_rules_read_literally(raw) -> None:
     config = PrepareConfig()
-    centers = grid_centers(raw, choose_locations(raw, config), config)
+    centers = grid_centers(choose_locations(raw, config), config)
     cells = cut_cells(raw, scene_points(raw, config), centers, config, lambda cubes: None)
     expected = {f"town_{n:05d}": naive_parts(raw, center) for n, center in enumerate(centers)}
     expected = {name: parts for name, parts in expected.items() if len(parts) >= 6}
@@ -164,7 +164,7 @@ def assert_matched(hint: PublishedHint, pose: np.ndarray, items: list) -> bool:
 def test_of_cells_equally_near_the_first_is_the_best(raw) -> None:
     flat = replace_trajectory(raw, raw.trajectory_m * [1, 1, 0] + [0, 0, 1])
     config, points = PrepareConfig(), scene_points(flat, PrepareConfig())
-    centers = grid_centers(flat, choose_locations(flat, config), config)
+    centers = grid_centers(choose_locations(flat, config), config)
     cells = cut_cells(flat, points, np.vstack([centers, centers + np.array([0, 10, 0])]), config, lambda cubes: None)
     centers = np.array([cell.bbox_w[:3] + 15 for cell in cells])
     poses = describe_positions(flat, points, cells, centers + np.array([5, 5, 0]), config)

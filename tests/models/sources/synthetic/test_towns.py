@@ -7,12 +7,12 @@ from scipy.spatial import cKDTree
 
 from models.citymap.colours import KITTI360_PALETTE
 from models.errors import DataError
-from models.sources.kitti360.prepare import prepare_scene
+from models.sources.kitti360.prepare import grid_centers, prepare_scene, spaced_rows
 from models.sources.kitti360.raw import list_raw_scenes, load_raw_scene
 from models.sources.kitti360.rules import CLASSES, GROUND, PrepareConfig
 from models.sources.kitti360pose.files import STANDARD_SPLITS, short_name
 from models.sources.synthetic import towns as synthetic
-from models.sources.synthetic.drive import count_cells, draw_drive, spaced_rows
+from models.sources.synthetic.drive import draw_drive
 from models.sources.synthetic.layout import draw_land, draw_plan
 from models.sources.synthetic.objects import FURNITURE
 from models.sources.synthetic.shapes import LocalFrame, box, patch
@@ -142,7 +142,7 @@ def test_a_drive_bends_and_ends_when_it_has_passed_enough_cells(style):
     plan, land = draw_plan(rng, STYLES[style], 400), draw_land(rng, STYLES[style])
     drive = land.to_world(draw_drive(rng, plan, land, 400))
     config = PrepareConfig()
-    assert abs(count_cells(drive[spaced_rows(drive, config.spacing_m)], config) - 400) <= 12
+    assert abs(len(grid_centers(drive[spaced_rows(drive, config.spacing_m)], config)) - 400) <= 12
     heading = np.arctan2(*np.gradient(drive[:, :2], axis=0).T)
     assert len(np.unique(np.round(heading / (np.pi / 8)) % 16)) >= 8
     assert np.ptp(drive[:, 2]) > 0.5
