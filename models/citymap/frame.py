@@ -52,7 +52,6 @@ class Frame:
 
 @lru_cache(maxsize=64)
 def _projection(origin_lat: float, origin_lon: float, epsg: int | None) -> tuple[Transformer, float, float]:
-    """Return the projection and the projected coordinates of the origin."""
     if epsg is None:
         projected = CRS.from_dict(
             {"proj": "tmerc", "lat_0": origin_lat, "lon_0": origin_lon, "datum": "WGS84", "units": "m"}

@@ -23,8 +23,8 @@ CutProgress = Callable[[int, int], None]  # cubes cut, cubes to cut
 class MapGeometry(Protocol):
     """Geometry that cubes can be cut out of."""
 
-    def cut(self, centers_m: Floats, progress: CutProgress | None = None, least: int = 0) -> PartTable:
-        """Cut the cubes around centres [N, 3]; cubes with fewer than `least` parts may be left empty."""
+    def cut(self, centers_m: Floats, progress: CutProgress | None = None, min_parts: int = 0) -> PartTable:
+        """Cut the cubes around centres [N, 3]; cubes with fewer than `min_parts` parts may be left empty."""
         ...
 
     def sample(self, centers_m: Floats, cubes: Ints) -> Floats:
@@ -39,9 +39,9 @@ class ScanGeometry:
     points: PointTable
     rules: CutRules
 
-    def cut(self, centers_m: Floats, progress: CutProgress | None = None, least: int = 0) -> PartTable:
-        """Cut the cubes around centres; `least` has no effect."""
-        del least
+    def cut(self, centers_m: Floats, progress: CutProgress | None = None, min_parts: int = 0) -> PartTable:
+        """Cut the cubes around centres; `min_parts` has no effect."""
+        del min_parts
         return cut_cubes(self.points, centers_m, self.rules, progress)
 
     def sample(self, centers_m: Floats, cubes: Ints) -> Floats:
@@ -58,9 +58,9 @@ class PieceGeometry:
     shapes: Sequence[str]  # I shapes, see `models.citymap.geometry.solids`
     rules: CutRules
 
-    def cut(self, centers_m: Floats, progress: CutProgress | None = None, least: int = 0) -> PartTable:
+    def cut(self, centers_m: Floats, progress: CutProgress | None = None, min_parts: int = 0) -> PartTable:
         """Cut the cubes around centres, as `MapGeometry.cut`."""
-        return cut_pieces(self.pieces, self.rgb, centers_m, self.rules, progress, least)
+        return cut_pieces(self.pieces, self.rgb, centers_m, self.rules, progress, min_parts)
 
     def sample(self, centers_m: Floats, cubes: Ints) -> Floats:
         """Return sampled points, as `MapGeometry.sample`."""
@@ -96,9 +96,9 @@ class ScannedPieceGeometry:
 
     pieces: PieceGeometry
 
-    def cut(self, centers_m: Floats, progress: CutProgress | None = None, least: int = 0) -> PartTable:
-        """Cut the cubes around centres; `least` has no effect."""
-        del least
+    def cut(self, centers_m: Floats, progress: CutProgress | None = None, min_parts: int = 0) -> PartTable:
+        """Cut the cubes around centres; `min_parts` has no effect."""
+        del min_parts
         table, shapes, rules = self.pieces.pieces, self.pieces.shapes, self.pieces.rules
         parts = self.pieces.cut(centers_m, progress)
         return replace(parts, closest_m=scan_pieces(table, shapes, centers_m, rules))

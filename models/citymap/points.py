@@ -37,7 +37,7 @@ class PointTable:
         xyz = np.concatenate([i.points_m for i in instances]).astype(np.float32, copy=False)
         instance = np.repeat(np.arange(len(instances), dtype=np.int32), counts)
         is_stuff = np.array([i.label in city_map.stuff for i in instances])
-        key = tile_keys(xyz)
+        key = block_keys(xyz, INDEX_TILE_M)
         order = np.argsort(key, kind="stable")
         pair_starts, pairs = _neighbour_pairs(xyz, instance, is_stuff, eps_m)
         instance_rgb = np.full((len(instances), 3), np.nan, dtype=np.float32)
@@ -67,12 +67,6 @@ class PointTable:
         rows = np.concatenate([self.tile_order[b:e] for b, e in zip(begin, end, strict=True)])
         xyz = self.xyz[rows]
         return np.sort(rows[((xyz >= low) & (xyz <= high)).all(axis=1)])
-
-
-def tile_keys(xyz: Floats) -> Ints:
-    """Return one integer [P] for the tile of each point; the tiles of a column are numbered from south to north."""
-    tile = np.floor(xyz[:, :2] / INDEX_TILE_M).astype(np.int64)
-    return _tile_key(tile[:, 0], tile[:, 1])
 
 
 def _tile_key(column: Any, row: Any) -> Any:

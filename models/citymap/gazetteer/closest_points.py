@@ -111,7 +111,6 @@ def _boxes_with_margin(segments_m: Floats, starts: Ints, margin_m: float) -> Flo
 
 @compiled
 def _offset_to_segment(x: float, y: float, ends: Floats) -> tuple[float, float]:
-    """Return the offset from a point to the closest point of a segment [4]."""
     along_x, along_y = ends[2] - ends[0], ends[3] - ends[1]
     away_x, away_y = x - ends[0], y - ends[1]
     square = along_x * along_x + along_y * along_y

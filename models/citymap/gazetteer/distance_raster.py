@@ -51,7 +51,6 @@ class GroupDistances:
 
 
 def _cache_key(_: "DistanceRaster", groups: Sequence[Ints], lines_m: Floats | None = None) -> tuple[bytes, ...]:
-    """Return the cache key of `distances_to`."""
     return b"" if lines_m is None else lines_m.tobytes(), *(one.tobytes() for one in groups)
 
 
@@ -111,10 +110,10 @@ class DistanceRaster:
 
     def mean_and_max(self, distances: GroupDistances, by_step: Floats, by_block: Floats) -> tuple[float, float]:
         """Return the mean and maximum (at least 0) over cells of the best group's value; arguments as `add_best`."""
-        total, most = np.zeros(self.shape[1]), np.zeros(self.shape[1], np.float32)
+        total, maximum = np.zeros(self.shape[1]), np.zeros(self.shape[1], np.float32)
         tables = distances.squares, distances.blocks, distances.is_near, self._limits, by_step, by_block
-        _sum_and_max(*tables, self._cells_in, total, most)
-        return float(total.sum()) / len(self.cell_pixel), float(most.max())
+        _sum_and_max(*tables, self._cells_in, total, maximum)
+        return float(total.sum()) / len(self.cell_pixel), float(maximum.max())
 
     def add_best(self, total: Floats, distances: GroupDistances, by_step: Floats, by_block: Floats) -> None:
         """Add the value of the best group to every pixel of `total` [columns, rows] (float32).
@@ -125,7 +124,6 @@ class DistanceRaster:
         _add_best(distances.squares, distances.blocks, distances.is_near, self._limits, by_step, by_block, total)
 
     def _object_pixels(self, objects: Ints) -> Ints:
-        """Return the pixels [n] of some objects."""
         both = (
             (self._lines, objects, objects + 1),
             (self._areas, self._area_starts[objects], self._area_starts[objects + 1]),
@@ -133,7 +131,6 @@ class DistanceRaster:
         return np.concatenate([pixel[ranges(starts[begin], starts[end])] for (pixel, starts), begin, end in both])
 
     def _pixel_distances(self, groups: Sequence[Ints]) -> GroupDistances:
-        """Return the distances to groups of pixels."""
         squares = np.stack(
             [squared_distances(column_distances(one, self.shape, self._reach), self._reach) for one in groups]
         )
@@ -154,7 +151,6 @@ class DistanceRaster:
         return np.minimum(squares, np.uint16(unreachable))
 
     def _block_of(self, pixels: Ints) -> Ints:
-        """Return the block [n] of each pixel."""
         column, row = np.divmod(pixels, self.shape[1])
         return column // BLOCK_PX * self._blocks[1] + row // BLOCK_PX
 
@@ -167,7 +163,7 @@ def _step_lengths(reach: int) -> Floats:
 @compiled
 def _sum_and_max(
     squares: SquaredDistances, blocks: SquaredDistances, is_near: Mask, limits: SquaredDistances, by_step: Floats,
-    by_block: Floats, cells: Floats, total: Floats, most: Floats,
+    by_block: Floats, cells: Floats, total: Floats, maximum: Floats,
 ) -> None:  # fmt: skip
     """Add up rows [rows] over columns, and raise their maxima; see `DistanceRaster.mean_and_max`."""
     line, limit, beyond = _column_buffers(squares)
@@ -177,7 +173,7 @@ def _sum_and_max(
         _fill_best(squares, by_step, x, limit, beyond, line)
         for y in range(len(line)):
             total[y] += line[y] * cells[x, y]
-            most[y] = max(most[y], line[y] if cells[x, y] > 0.0 else np.float32(0.0))
+            maximum[y] = max(maximum[y], line[y] if cells[x, y] > 0.0 else np.float32(0.0))
 
 
 @compiled
@@ -217,7 +213,6 @@ def _fill_blocks(
     limit: SquaredDistances,
     beyond: Floats,
 ) -> None:
-    """Fill in the limits and values of a column of blocks."""
     for t in range(len(blocks)):
         for y in range(limit.shape[1]):
             block = blocks[t, x, y // BLOCK_PX]
@@ -231,8 +226,8 @@ def _fill_best(
 ) -> None:
     """Fill in the best group's value for a column of pixels; written so that the compiler vectorises it."""
     for t in range(len(squares)):
-        square, of_step, most, of_block = squares[t, x], by_step[t], limit[t], beyond[t]
+        square, step_values, maximum, block_values = squares[t, x], by_step[t], limit[t], beyond[t]
         for y in range(len(line)):
-            value = of_step[min(square[y], most[y])]
-            value = value if square[y] <= most[y] else of_block[y]
+            value = step_values[min(square[y], maximum[y])]
+            value = value if square[y] <= maximum[y] else block_values[y]
             line[y] = value if t == 0 else max(line[y], value)

@@ -50,11 +50,11 @@ def pixel_distances(columns: ColumnDistances, pixels: Ints, reach: int) -> Float
     distances = np.empty(len(pixels), np.float32)
     for n in range(len(pixels)):
         row, begin = columns[pixels[n] // rows], pixels[n] % rows
-        least = np.int32(reach * reach + 1)
+        smallest = np.int32(reach * reach + 1)
         for step in range(len(across)):
             apart = np.int32(row[begin + step])
-            least = min(least, apart * apart + across[step])
-        distances[n] = np.inf if least > reach * reach else np.sqrt(np.float32(least))
+            smallest = min(smallest, apart * apart + across[step])
+        distances[n] = np.inf if smallest > reach * reach else np.sqrt(np.float32(smallest))
     return distances
 
 
@@ -68,11 +68,11 @@ def squared_distances(distances: ColumnDistances, reach: int) -> SquaredDistance
     columns, rows = distances.shape[0], distances.shape[1] - 2 * reach
     squares, square = np.full((columns, rows), 65535, np.uint16), np.empty(distances.shape[1], np.uint16)
     for x in range(columns):
-        least = np.uint8(255)
+        smallest = np.uint8(255)
         for y in range(len(square)):
-            least = min(least, distances[x, y])
+            smallest = min(smallest, distances[x, y])
             square[y] = np.uint16(distances[x, y]) * np.uint16(distances[x, y])
-        if least > reach:
+        if smallest > reach:
             continue  # no pixel is within reach
         line = squares[x]
         for step in range(reach + 1):

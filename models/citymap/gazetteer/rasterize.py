@@ -105,7 +105,6 @@ def draw_areas(grid: PixelGrid, segments_m: Floats, starts: Ints, objects: Ints,
 
 @compiled
 def _lattice_coordinates(ends: Floats, lattice_m: float) -> Floats:
-    """Return the coordinates of the lattice along one axis, from the lowest end to the highest."""
     return np.arange(ends.min() + lattice_m / 2, ends.max(), lattice_m)
 
 

@@ -114,7 +114,6 @@ def _shared_nodes(
 
 
 def _rows_of(starts: Ints, pieces: Ints) -> Ints:
-    """Return the rows of some pieces, piece after piece."""
     return ranges(starts[pieces], starts[pieces + 1])
 
 

@@ -65,7 +65,7 @@ def closest_instances(
 @compiled
 def _closest_instances(
     points_m: Floats, point_starts: Ints, centers_m: Floats, half_m: float, reach_m: float, step_m: float,
-    least: float, low: Ints, shape: Ints, tile_starts: Ints, tile: Ints, instance: Ints, form: Ints,
+    min_count: float, low: Ints, shape: Ints, tile_starts: Ints, tile: Ints, instance: Ints, form: Ints,
     point_count: Floats, bounds_m: Floats, crown_m: Floats, segment_starts: Ints, segments: Steps, link_starts: Ints,
     links: Ints,
 ) -> tuple[Ints, Ints, npt.NDArray[np.int8]]:  # fmt: skip
@@ -78,7 +78,7 @@ def _closest_instances(
             continue
         pieces, runs = pieces_near(own_points_m, reach_m + CROWN_M, low, shape, tile_starts)
         order, starts = group_pieces(
-            pieces, runs, centers_m[n], half_m, least, tile, instance, form, point_count, link_starts, links
+            pieces, runs, centers_m[n], half_m, min_count, tile, instance, form, point_count, link_starts, links
         )
         square, offset_x, offset_y = _offsets_to_groups(
             own_points_m, order, starts, reach_m, tile, form, bounds_m, crown_m, segment_starts, segments
@@ -156,7 +156,6 @@ def _offsets_to_groups(
 
 @compiled
 def _squared_box_distance(bounds_m: Floats, k: int, other_m: Floats) -> float:
-    """Return the squared distance between the box of a piece and another box."""
     away_x = max(bounds_m[k, 0] - other_m[2], 0.0, other_m[0] - bounds_m[k, 2])
     away_y = max(bounds_m[k, 1] - other_m[3], 0.0, other_m[1] - bounds_m[k, 3])
     return away_x * away_x + away_y * away_y

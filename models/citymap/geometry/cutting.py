@@ -61,7 +61,6 @@ class CubeContents:
 
 
 def _clip(geometry: Geometries, rows: Ints, cube: Ints, low: Floats, high: Floats) -> None:
-    """Clip some geometries to their cubes, in place; `cube` ascends."""
     first = np.flatnonzero(np.diff(cube, prepend=-1))
     for begin, end in zip(first, np.append(first[1:], len(rows)), strict=True):
         n = cube[begin]
@@ -92,14 +91,14 @@ def cut_pieces(
     centers_m: Floats,
     rules: CutRules,
     progress: Callable[[int, int], None] | None = None,
-    least: int = 0,
+    min_parts: int = 0,
 ) -> PartTable:
-    """Cut the cubes around centres [N, 3] as `cells.cut_cubes`; cubes of fewer than `least` parts stay empty.
+    """Cut the cubes around centres [N, 3] as `cells.cut_cubes`; cubes of fewer than `min_parts` parts stay empty.
 
     Colours [I, 3] of instances are NaN where unknown.
     """
     chunks = [centers_m[i : i + CUBES_PER_TASK] for i in range(0, len(centers_m), CUBES_PER_TASK)] or [centers_m]
-    work = partial(_cut_chunk, table, InstanceTotals.from_pieces(table), rules, least)
+    work = partial(_cut_chunk, table, InstanceTotals.from_pieces(table), rules, min_parts)
     done = 0
 
     def columns() -> Iterator[dict[str, npt.NDArray[Any]]]:
@@ -162,7 +161,7 @@ class _PartGroups:
         return cls(cubes, order, starts, is_kept)
 
 
-def _cut_chunk(table: PieceTable, whole: InstanceTotals, rules: CutRules, least: int, centers: Floats) -> PartTable:
+def _cut_chunk(table: PieceTable, whole: InstanceTotals, rules: CutRules, min_parts: int, centers: Floats) -> PartTable:
     """Cut some cubes; the colours are left out."""
     grouped = _PartGroups.cut(table, whole, rules, centers)
     cubes, order, starts = grouped.cubes, grouped.order, grouped.starts
@@ -183,7 +182,7 @@ def _cut_chunk(table: PieceTable, whole: InstanceTotals, rules: CutRules, least:
     count = np.where(thing, whole.point_count[instance], np.add.reduceat(cubes.point_count[order], starts))
     top = np.where(thing, top, np.minimum(top, np.maximum(centers[cube, 2] + rules.cell_size_m / 2, base)))
     rows = np.flatnonzero(grouped.is_kept)
-    rows = rows[(np.bincount(cube[rows], minlength=len(centers)) >= least)[cube[rows]]]
+    rows = rows[(np.bincount(cube[rows], minlength=len(centers)) >= min_parts)[cube[rows]]]
     return PartTable(
         starts=np.searchsorted(cube[rows], np.arange(len(centers) + 1)),
         instance=instance[rows].astype(np.int32),
@@ -240,9 +239,9 @@ def _closest_points(geometry: Geometries, centers: Floats, starts: Ints) -> Floa
     """Return the point [G, 2] nearest to the centre of each group of geometries; groups begin at `starts`."""
     lines = shapely.shortest_line(shapely.points(centers[:, :2]), geometry)
     metres = shapely.length(lines)
-    least = np.minimum.reduceat(metres, starts)
+    smallest = np.minimum.reduceat(metres, starts)
     sizes = np.diff(np.append(starts, len(metres)))
-    best = np.flatnonzero(metres == np.repeat(least, sizes))
+    best = np.flatnonzero(metres == np.repeat(smallest, sizes))
     group = np.repeat(np.arange(len(starts)), sizes)[best]
     first = best[np.diff(group, prepend=-1) != 0]
     return shapely.get_coordinates(lines[first]).reshape(-1, 2, 2)[:, 1]

@@ -41,7 +41,7 @@ def _position(piece: int, runs: Ints) -> int:
 
 @compiled
 def group_pieces(
-    pieces: Ints, runs: Ints, center_m: Floats, half_m: float, least: float, tile: Ints, instance: Ints, form: Ints,
+    pieces: Ints, runs: Ints, center_m: Floats, half_m: float, min_count: float, tile: Ints, instance: Ints, form: Ints,
     point_count: Floats, link_starts: Ints, links: Ints,
 ) -> tuple[Ints, Ints]:  # fmt: skip
     """Return the pieces around a cell by group, and where each group begins (and the last ends)."""
@@ -60,7 +60,7 @@ def group_pieces(
     place, pieces_kept, groups_kept = np.full(count, -1, np.int64), 0, 0
     starts = np.empty(count + 1, np.int64)
     for g in range(count):
-        if size[g] and _is_counted(g, size, total, least, kind, pieces, instance):
+        if size[g] and _is_counted(g, size, total, min_count, kind, pieces, instance):
             place[g], starts[groups_kept] = pieces_kept, pieces_kept
             pieces_kept += size[g]
             groups_kept += 1
@@ -75,9 +75,9 @@ def group_pieces(
 
 
 @compiled
-def _is_counted(g: int, size: Ints, total: Floats, least: float, kind: Ints, pieces: Ints, instance: Ints) -> bool:
+def _is_counted(g: int, size: Ints, total: Floats, min_count: float, kind: Ints, pieces: Ints, instance: Ints) -> bool:
     """Whether a group is large enough, a thing, or the only group of its instance."""
-    if total[g] >= least or kind[g] == 2:
+    if total[g] >= min_count or kind[g] == 2:
         return True
     for another in range(len(size)):
         if another != g and size[another] and instance[pieces[another]] == instance[pieces[g]]:
@@ -90,17 +90,17 @@ def _connect(pieces: Ints, runs: Ints, kind: Ints, instance: Ints, link_starts: 
     """Return the first piece [P] of each piece's group; pieces beside the cube join the group that they continue."""
     count = len(pieces)
     parent = np.arange(count)
-    things, thing, count_things = np.empty(count, np.int64), np.empty(count, np.int64), 0
+    thing_first, thing_instance, thing_count = np.empty(count, np.int64), np.empty(count, np.int64), 0
     for p in range(count):
         if kind[p] == 2:
             own = instance[pieces[p]]
-            for t in range(count_things):
-                if thing[t] == own:
-                    parent[p] = things[t]
+            for t in range(thing_count):
+                if thing_instance[t] == own:
+                    parent[p] = thing_first[t]
                     break
             if parent[p] == p:
-                things[count_things], thing[count_things] = p, own
-                count_things += 1
+                thing_first[thing_count], thing_instance[thing_count] = p, own
+                thing_count += 1
             continue
         for linked in links[link_starts[pieces[p]] : link_starts[pieces[p] + 1]]:
             q = _position(linked, runs)
@@ -124,7 +124,6 @@ def _connect(pieces: Ints, runs: Ints, kind: Ints, instance: Ints, link_starts: 
 
 @compiled
 def _number_by_first(group: Ints) -> Ints:
-    """Number groups by their first piece."""
     first = np.full(len(group), -1, np.int64)
     named = np.empty(len(group), np.int64)
     for p in range(len(group)):

@@ -107,7 +107,6 @@ class PieceTable:
         return spooled({"m": block} for block in self._lattice_batches(pieces, spacing_m))["m"]
 
     def _lattice_batches(self, pieces: Ints, spacing_m: float) -> Iterator[Floats]:
-        """Yield the positions of `ground_lattice`, some pieces at a time."""
         yield np.zeros((0, 3), np.float32)
         emitted = np.zeros(0, np.int64)
         for n in range(0, len(pieces), PIECES_PER_BLOCK):
@@ -146,7 +145,6 @@ def _tiles(tile_starts: Ints, low: Ints, shape: Ints) -> Ints:
 
 @compiled
 def _pieces_per_tile(columns: Ints, rows: Ints, low: Ints, shape: Ints) -> Ints:
-    """Return the number of pieces [columns * rows] of each tile."""
     count = np.zeros(shape[0] * shape[1], np.int64)
     for k in range(len(columns)):
         count[(columns[k] - low[0]) * shape[1] + rows[k] - low[1]] += 1

@@ -75,7 +75,6 @@ def _cut_along_axis(geometry: Geometries, feature: Ints, axis: int, span: TileSp
 
 
 def _runs(values: Ints) -> Iterator[tuple[int, int, int]]:
-    """Yield (value, begin, end) of the runs of equal values."""
     first = np.flatnonzero(np.diff(values, prepend=values[:1] - 1))
     ends = np.append(first, len(values))[1:]
     yield from zip(values[first].tolist(), first.tolist(), ends.tolist(), strict=True)

@@ -151,12 +151,14 @@ def names_by_language(schema: Path, selected: Json, presets: Json, languages: li
 
 
 def brand_spellings(item: Mapping[str, Any]) -> list[str]:
-    """Return all spellings of a brand, the usual one first."""
+    """Return all spellings of a brand, the main one first."""
     tags = item["tags"]
-    usual = tags.get("brand:en") or tags.get("brand") or tags.get("name") or tags.get("operator") or item["displayName"]
+    main_name = (
+        tags.get("brand:en") or tags.get("brand") or tags.get("name") or tags.get("operator") or item["displayName"]
+    )
     more = [name for key in sorted(tags) if NAME_TAGS.fullmatch(key) for name in tags[key].split(";")]
     by_form: dict[str, str] = {}
-    for name in (usual, *more, *item.get("matchNames", [])):
+    for name in (main_name, *more, *item.get("matchNames", [])):
         by_form.setdefault(normalize_name(name), name.strip())
     return [name for form, name in by_form.items() if form]
 
@@ -179,12 +181,6 @@ def merge_brands(index: Json, brandless: list[str]) -> list[list[str]]:
     return sorted(rows)
 
 
-def compress_json(content: Json) -> bytes:
-    """Return the bytes of a vendored file."""
-    text = json.dumps(content, ensure_ascii=False, separators=(",", ":"))
-    return lzma.compress(text.encode(), preset=9 | lzma.PRESET_EXTREME)
-
-
 def write_vocabulary(schema: Path, brands: Path, out: Path) -> None:
     """Write the vendored files into a folder."""
     selection = tomllib.loads((FOLDER / "selection.toml").read_text(encoding="utf-8"))
@@ -202,7 +198,8 @@ def write_vocabulary(schema: Path, brands: Path, out: Path) -> None:
     index = read_json(brands / "dist" / "json" / "nsi.min.json")["nsi"]
     chains = {"source": sources[1], "brands": merge_brands(index, selection["brandless"])}
     for file, content in (("kinds", kinds), ("names", names), ("brands", chains)):
-        replace_file(out / f"{file}.json.xz", compress_json(content))
+        text = json.dumps(content, ensure_ascii=False, separators=(",", ":"))
+        replace_file(out / f"{file}.json.xz", lzma.compress(text.encode(), preset=9 | lzma.PRESET_EXTREME))
     texts = [
         f"# {about['name']} {about['version']} ({about['license']})\n\n{(package / 'LICENSE.md').read_text().strip()}\n"
         for package, about in zip((schema, brands), sources, strict=True)

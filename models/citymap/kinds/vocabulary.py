@@ -54,12 +54,12 @@ class Vocabulary:
             self._nouns[language] = self._read_nouns(language)
         return MappingProxyType(self._nouns[language])
 
-    def single_words(self, least: int) -> Iterator[tuple[str, tuple[tuple[str, float], ...]]]:
+    def single_words(self, min_length: int) -> Iterator[tuple[str, tuple[tuple[str, float], ...]]]:
         """Yield the single-word nouns of all languages of at least some length, as `nouns`; keeps none in memory."""
         names = self._read_names()
 
         def is_wanted(phrase: str) -> bool:
-            return len(phrase) >= least and " " not in phrase
+            return len(phrase) >= min_length and " " not in phrase
 
         for language in self.languages:
             if language in names:

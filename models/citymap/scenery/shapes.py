@@ -137,7 +137,6 @@ def _sorted_tensors(columns: Mapping[str, npt.NDArray[Any]], order: npt.NDArray[
 
 
 def _group_rows(ends: npt.NDArray[Any], sizes: npt.NDArray[Any], groups: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """Return the rows of some groups, group after group."""
     return ranges(ends[groups] - sizes[groups], ends[groups])
 
 

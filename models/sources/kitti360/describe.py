@@ -31,13 +31,6 @@ class ReachableParts:
         return len(self.instance)
 
 
-class StrategyDescription(NamedTuple):
-    """The hints that one strategy picked."""
-
-    strategy: Strategy
-    hints: tuple[PublishedHint, ...]
-
-
 class _NearestObject(NamedTuple):
     """An object of the best cell, with its point nearest to the pose in cell units."""
 
@@ -68,43 +61,43 @@ def _find_reachable_parts(points: PointTable, config: PrepareConfig, position_m:
 
 
 def describe_pose(
-    around: ReachableParts, raw: RawScene, cell: PublishedCell, pose: Floats, config: PrepareConfig
-) -> list[StrategyDescription]:
-    """Describe a pose by each strategy; a description of the same instances as an earlier one is dropped.
+    reachable: ReachableParts, raw: RawScene, cell: PublishedCell, pose: Floats, config: PrepareConfig
+) -> list[tuple[Strategy, tuple[PublishedHint, ...]]]:
+    """Return the hints about a pose by each strategy; a description of the same instances as an earlier one is dropped.
 
-    `around` has at least `config.num_hints` rows; `pose` [3] is in units of the best cell.
+    `reachable` has at least `config.num_hints` rows; `pose` [3] is in units of the best cell.
     """
-    direction = direction_index(CUBE_CENTER - around.closest, config.on_top_share)
+    direction = direction_index(CUBE_CENTER - reachable.closest, config.on_top_share)
     label_number = {label: n for n, label in enumerate({i.label: None for i in raw.instances})}
-    labels = np.array([label_number[raw.instances[i].label] for i in around.instance])
+    labels = np.array([label_number[raw.instances[i].label] for i in reachable.instance])
     keys = {"class": labels, "direction": direction}
-    by_instances: dict[frozenset[int], StrategyDescription] = {}
+    by_instances: dict[frozenset[int], tuple[Strategy, tuple[PublishedHint, ...]]] = {}
     for strategy in config.strategies:
-        order = round_robin(keys[strategy]) if strategy in keys else np.argsort(around.distance, kind="stable")
+        order = round_robin(keys[strategy]) if strategy in keys else np.argsort(reachable.distance, kind="stable")
         rows = order[: config.num_hints]
-        mentioned = frozenset(raw.instances[i].id for i in around.instance[rows])
+        mentioned = frozenset(raw.instances[i].id for i in reachable.instance[rows])
         if mentioned not in by_instances:
-            hints = tuple(_hint(around, int(row), int(direction[row]), raw, cell, pose) for row in rows)
-            by_instances[mentioned] = StrategyDescription(strategy, hints)
+            hints = tuple(_hint(reachable, int(row), int(direction[row]), raw, cell, pose) for row in rows)
+            by_instances[mentioned] = strategy, hints
     return list(by_instances.values())
 
 
 def _hint(
-    around: ReachableParts, row: int, direction: int, raw: RawScene, cell: PublishedCell, pose: Floats
+    reachable: ReachableParts, row: int, direction: int, raw: RawScene, cell: PublishedCell, pose: Floats
 ) -> PublishedHint:
-    instance = raw.instances[around.instance[row]]
-    offset = (CUBE_CENTER - around.closest[row])[:2]
+    instance = raw.instances[reachable.instance[row]]
+    offset = (CUBE_CENTER - reachable.closest[row])[:2]
     matched = _match(instance.id, offset, cell, pose)
     # The closest point is in units of the best cell if the hint is matched there, else of the cube around the position.
-    closest = around.closest[row] if matched is None else matched.closest
+    closest = reachable.closest[row] if matched is None else matched.closest
     return PublishedHint(
         object_id=None if matched is None else matched.item.id,
         object_instance_id=instance.id,
         object_label=instance.label,
-        object_color_rgb=around.rgb[row],
-        object_color_text=KITTI360_PALETTE.word(around.rgb[row]) or "",
+        object_color_rgb=reachable.rgb[row],
+        object_color_text=KITTI360_PALETTE.word(reachable.rgb[row]) or "",
         direction=DIRECTIONS[direction],
-        offset_center=(CUBE_CENTER - around.center[row])[:2],
+        offset_center=(CUBE_CENTER - reachable.center[row])[:2],
         offset_closest=offset,
         closest_point=closest[:2],
         best_offset_center=None if matched is None else (pose - matched.item.xyz.mean(axis=0))[:2],

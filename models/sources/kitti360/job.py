@@ -80,7 +80,6 @@ def prepare_data(
 
 
 def _choose_folders(raw: Path, scene: str | None) -> tuple[str, ...]:
-    """Return the folders of the scenes to prepare."""
     try:
         available = list_raw_scenes(raw)
     except DataError as error:
@@ -119,11 +118,11 @@ def _is_finished(out: Path, recipe: Recipe) -> bool:
     if (out / f".placing-{recipe.scene}").is_dir():
         return False
     if not places["prepared"].exists():
-        strange = [path for path in places.values() if path.exists()]
-        if strange:
+        existing = [path for path in places.values() if path.exists()]
+        if existing:
             raise DataError(
-                f"{strange[-1]}: exists, but there is no {places['prepared']} to show that it was prepared here; it is "
-                "not overwritten: move it away, or name another directory to prepare into"
+                f"{existing[-1]}: exists, but there is no {places['prepared']} to show that it was prepared here; it "
+                "is not overwritten: move it away, or name another directory to prepare into"
             )
         return False
     if not places["cells"].exists():
@@ -179,7 +178,6 @@ def _complete_scene(
 def _write_scene(
     raw: Path, folder: str, making: Path, recipe: Recipe, config: PrepareConfig, bar: "_ProgressBar"
 ) -> None:
-    """Write all files of a scene into a directory of its own."""
     raw_scene = load_raw_scene(raw, folder, config.classes, lambda size: bar.read(recipe, size))
     rng = np.random.default_rng([recipe.seed, *raw_scene.name.encode()])
     try:

@@ -50,8 +50,6 @@ def prepare_scene(
 
 
 class _CubeProgress:
-    """Counts cubes for a progress bar."""
-
     def __init__(self, total: int, progress: Progress | None) -> None:
         self.done, self.total, self.progress = 0, total, progress
 
@@ -167,13 +165,15 @@ def describe_positions(
     step(len(positions_m) - len(reachable))
     chunks = [reachable[i : i + CUBES_PER_TASK] for i in range(0, len(reachable), CUBES_PER_TASK)]
     poses = []
-    looked = map_forked(partial(find_reachable_parts, points, config), [positions_m[chunk] for chunk in chunks])
-    for chunk, surroundings in zip(chunks, looked, strict=True):
-        for n, around in zip(chunk, surroundings, strict=True):
-            if len(around) >= config.num_hints:
+    reachable_parts = map_forked(
+        partial(find_reachable_parts, points, config), [positions_m[chunk] for chunk in chunks]
+    )
+    for chunk, per_position in zip(chunks, reachable_parts, strict=True):
+        for n, parts in zip(chunk, per_position, strict=True):
+            if len(parts) >= config.num_hints:
                 cell, position = cells[best[n]], positions_m[n]
                 pose = (position - cell.bbox_w[:3]) / cell.cell_size
-                for strategy, hints in describe_pose(around, raw, cell, pose, config):
+                for strategy, hints in describe_pose(parts, raw, cell, pose, config):
                     poses.append(PublishedPose(pose, position, cell.id, raw.name, strategy, hints))
         step(len(chunk))
     return poses

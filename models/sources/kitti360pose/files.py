@@ -168,7 +168,6 @@ def save_scene(root: Path, scene: str, cells: Iterable[PublishedCell], poses: Se
 
 @contextmanager
 def _open_records(path: Path, name: str, kind: str) -> Iterator[list[Fields]]:
-    """Yield the records of a file while it is open."""
     try:
         file = path.open("rb")
     except FileNotFoundError as error:

@@ -34,7 +34,6 @@ class CopyGrid:
 
     @property
     def _size(self) -> tuple[int, int]:
-        """Return the width and height of a copy, with one unit between neighbours."""
         west, south, east, north = self.box
         return east - west + 1, north - south + 1
 
@@ -109,16 +108,15 @@ class CityExtract:
         header.set("sorting", "Type_then_ID")
         try:
             with osmium.SimpleWriter(str(out), header=header) as writer:
-                for letter, entity in OSM_TYPES.items():
+                for entity in OSM_TYPES.values():
                     for copy in range(copies):
                         for element in self._copied(block, copy, entity):
-                            _WRITER_METHODS[letter](writer, element)
+                            writer.add(element)
         except (RuntimeError, ValueError, OSError) as error:
             raise MapError(f"{out}: cannot be written ({error}); make room, or give another map") from error
         return block
 
     def _copied(self, block: CopyGrid, copy: int, entity: Any) -> Iterator[Any]:
-        """Yield the elements of one type as they are in a copy."""
         elements = osmium.FileProcessor(str(self.path), entity)
         if not copy:
             yield from elements
@@ -130,8 +128,6 @@ class CityExtract:
 
 
 class _BoundingBox:
-    """A box around positions."""
-
     def __init__(self) -> None:
         self._west = self._south = 1 << 40
         self._east = self._north = -(1 << 40)
@@ -147,7 +143,6 @@ class _BoundingBox:
 
 
 def _references(element: Any) -> list[tuple[str, int]]:
-    """Return letters and ids of the elements that an element refers to."""
     if element.type_str() == "w":
         return [("n", node.ref) for node in element.nodes]
     if element.type_str() == "r":
@@ -156,7 +151,6 @@ def _references(element: Any) -> list[tuple[str, int]]:
 
 
 def _move(element: Any, names: CopyNames, id_shift: dict[str, int], shift: tuple[int, int]) -> Any:
-    """Return an element with other ids, names and coordinates."""
     letter = element.type_str()
     tags = names.tags((letter, element.id), {tag.k: tag.v for tag in element.tags})
     changed: dict[str, Any] = {"id": element.id + id_shift[letter], "tags": tags}
@@ -171,10 +165,3 @@ def _move(element: Any, names: CopyNames, id_shift: dict[str, int], shift: tuple
     elif letter == "r":
         changed["members"] = [(m.type, m.ref + id_shift[m.type], m.role) for m in element.members]
     return element.replace(**changed)
-
-
-_WRITER_METHODS: Final = {
-    "n": osmium.SimpleWriter.add_node,
-    "w": osmium.SimpleWriter.add_way,
-    "r": osmium.SimpleWriter.add_relation,
-}

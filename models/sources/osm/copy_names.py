@@ -22,10 +22,7 @@ TRANSLATED_STREET_KEY: Final = re.compile(r"addr:(?:street|place):.+")
 NAME_KEY: Final = re.compile(r"(?:.*[:_])?name(?::.*)?|brand(?::.*)?")
 SYLLABLES: Final = tuple(c + v for c in "bdfghjklmnprstvz" for v in "aeiou")
 SYLLABLES_PER_NAME: Final = 4
-# Coprime to the number of words, so that no two numbers share a name
-NAME_STEP: Final = (
-    15_485_863  # has no divisor in common with the number of syllables, so that no two numbers share a name
-)
+NAME_STEP: Final = 15_485_863  # coprime to the number of words, so that no two numbers share a name
 
 Tags = dict[str, str]
 Element = tuple[str, int]  # osmium's letter and the number
@@ -38,7 +35,7 @@ class ExtractNames:
 
     streets: dict[str, int] = field(default_factory=dict)  # numbers of streets by name in lower case
     # Name tags of other objects, by kind (main key and value)
-    things: dict[Kind, dict[Element, Tags]] = field(default_factory=dict)
+    others: dict[Kind, dict[Element, Tags]] = field(default_factory=dict)
 
     def add(self, element: Element, tags: Mapping[str, str]) -> None:
         """Add the names of one element."""
@@ -49,7 +46,7 @@ class ExtractNames:
         if name_tags and is_street(element, tags):
             self._add_street(_street_name(name_tags))
         elif name_tags:
-            self.things.setdefault(_main_tag(tags), {})[element] = name_tags
+            self.others.setdefault(_main_tag(tags), {})[element] = name_tags
 
     def _add_street(self, name: str) -> None:
         self.streets.setdefault(name.casefold(), len(self.streets))
@@ -57,7 +54,7 @@ class ExtractNames:
     def in_copy(self, copy: int) -> "CopyNames":
         """Return the names of a copy, from 1 on; its number seeds which objects swap names."""
         swapped: dict[Element, Tags] = {}
-        for kind, named in self.things.items():
+        for kind, named in self.others.items():
             rng = np.random.default_rng([copy, zlib.crc32("=".join(kind).encode())])
             order, bundles = rng.permutation(len(named)), list(named.values())
             swapped.update({element: bundles[n] for element, n in zip(named, order.tolist(), strict=True)})
@@ -108,7 +105,6 @@ def _name_tags(tags: Mapping[str, str]) -> Tags:
 
 
 def _street_name(name_tags: Tags) -> str:
-    """Return the name that identifies a street."""
     return name_tags.get("name") or next(iter(name_tags.values()))
 
 
@@ -118,7 +114,6 @@ def _main_tag(tags: Mapping[str, str]) -> Kind:
 
 
 def _made_up_word(number: int) -> str:
-    """Return a made-up word, different for each number."""
     rest, word = number * NAME_STEP % len(SYLLABLES) ** SYLLABLES_PER_NAME, ""
     for _ in range(SYLLABLES_PER_NAME):
         rest, syllable = divmod(rest, len(SYLLABLES))

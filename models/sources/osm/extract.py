@@ -44,7 +44,6 @@ def _parse_box(text: str) -> shapely.Geometry:
 
 
 def _parse_geojson(text: str) -> shapely.Geometry:
-    """Return all polygons of a GeoJSON object."""
     shapes = shapely.get_parts(shapely.from_geojson(json.dumps(json.loads(text))))
     areas = [shape for shape in shapely.get_parts(shapes) if shapely.get_dimensions(shape) == 2]
     return shapely.make_valid(shapely.union_all(areas))

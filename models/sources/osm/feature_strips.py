@@ -114,7 +114,6 @@ class FeatureInstances:
 
 
 def _find_joins_in(strips: FeatureStrips, number: int) -> tuple[Ints, Ints]:
-    """Return the result of `find_joins` for a strip, by numbers of features."""
     features = strips.read(number)
     numbers = np.array([each.number for each in features])
     left_out, pairs = find_joins([each.feature for each in features])

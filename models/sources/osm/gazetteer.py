@@ -39,10 +39,8 @@ NAME_KEYS = (
 NON_STREET_HIGHWAYS = frozenset(
     ("proposed", "construction", "bus_stop", "street_lamp", "platform", "elevator", "corridor")
 )
-# Without a name, an object with one of these is named by its operator
-OPERATOR_NAMED_KEYS = frozenset(
-    ("amenity", "shop", "office", "tourism", "leisure", "healthcare")
-)  # known by who runs them
+# Without a name, an object with one of these is known by its operator
+OPERATOR_NAMED_KEYS = frozenset(("amenity", "shop", "office", "tourism", "leisure", "healthcare"))
 UNBUILT_HIGHWAYS = frozenset(("proposed", "construction"))
 UNNAMED_HIGHWAYS = frozenset(("steps", "pedestrian", "cycleway"))  # streets without a name are left out, except these
 WALKED_HIGHWAYS = frozenset(
@@ -72,26 +70,15 @@ def load_gazetteer(path: Path, frame: Frame) -> Gazetteer:
     for batch in _read_batches(path):
         with_segments = list(zip(batch, _batch_segments(batch, frame), strict=True))
         pieces.add([_street_piece(item, segments, frame) for item, segments in with_segments if item.nodes])
-        walked.add(
-            {
-                "segments_m": concatenate_segments(
-                    [segments for item, segments in with_segments if item.object is _WALKED_OBJECT]
-                )
-            }
-        )
-        others = [
-            (item, segments) for item, segments in with_segments if not item.nodes and item.object is not _WALKED_OBJECT
-        ]
-        objects.add(
-            [item.object for item, _ in others],
-            [segments for _, segments in others],
-            [item.is_area for item, _ in others],
-        )
+        lines = [segments for item, segments in with_segments if item.object is _WALKED_OBJECT]
+        walked.add({"segments_m": concatenate_segments(lines)})
+        others = [row for row in with_segments if not row[0].nodes and row[0].object is not _WALKED_OBJECT]
+        objects.add([i.object for i, _ in others], [segments for _, segments in others], [i.is_area for i, _ in others])
     streets = join_streets(pieces, len(objects))
     objects.add(streets.objects, streets.segments_m, [False] * len(streets.objects))
-    lines = walked.columns()["segments_m"]
-    if len(lines) and len(objects):
-        objects.add([_WALKED_OBJECT], [lines], [False])
+    walked_m = walked.columns()["segments_m"]
+    if len(walked_m) and len(objects):
+        objects.add([_WALKED_OBJECT], [walked_m], [False])
     return objects.build((streets.corner_streets, streets.corners_m))
 
 
@@ -181,7 +168,6 @@ def _names(tags: dict[str, str]) -> tuple[str, ...]:
 
 
 def _batch_segments(batch: Sequence[_OsmObject], frame: Frame) -> Iterator[Floats]:
-    """Return the segments [n, 4] of each object, metres."""
     lon_lat = shapely.from_wkb([item.wkb for item in batch])
     shapes = shapely.transform(lon_lat, lambda xy: frame.from_wgs84(xy[:, 1], xy[:, 0]))
     return map(_segments, shapely.simplify(shapes, SIMPLIFY_TOLERANCE_M, preserve_topology=True))

@@ -25,8 +25,6 @@ UNKNOWN_RGB: Final = (np.nan, np.nan, np.nan)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _ImportedStrip:
-    """The results of a strip."""
-
     rows: PieceRows
     drawing: DrawnObjects  # the features that it owns
     instance: Ints  # [n] the instances whose first features are among these

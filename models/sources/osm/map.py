@@ -35,8 +35,8 @@ MIN_PART_POINTS = 24  # of a part of stuff: 6 m2 of ground
 ELEMENTS_PER_BATCH = 20_000
 LOCATION_SPACING_M = 2.0  # between locations where a person can stand, about
 KM_PER_DEGREE: Final = 111.2  # of latitude
-MOST_KM2: Final = 100_000.0  # of a map: its table of tiles takes 13 GB then
-MOST_KM: Final = 1000.0  # from side to side: in a frame, metres are 0.3 % too long 500 km from the middle
+MAX_AREA_KM2: Final = 100_000.0  # of a map: its table of tiles takes 13 GB then
+MAX_SIDE_KM: Final = 1000.0  # from side to side: in a frame, metres are 0.3 % too long 500 km from the middle
 Element = TypeVar("Element")
 LINEAR_KEYS = ("highway", "railway", "barrier", "tunnel", "bridge")  # closed ways of these are loops, not areas
 
@@ -87,7 +87,6 @@ def read_features(path: Path, frame: Frame, box: Box | None) -> Iterator[list[Fe
 def _build_features(
     elements: Sequence[_Element], lon_lat: Geometries, frame: Frame, box: Box | None
 ) -> Iterator[Feature]:
-    """Yield the features of some elements, clipped to a box if given."""
     geometries = shapely.transform(lon_lat, lambda xy: frame.from_wgs84(xy[:, 1], xy[:, 0]))
     if box:
         west, south, east, north = box
@@ -104,7 +103,6 @@ def read_frame(path: Path) -> Frame:
 
 
 def _total_bounds(batches: Iterable[Batch]) -> Box:
-    """Return the box around some geometries."""
     low, high = np.full(3, np.inf), np.full(3, -np.inf)  # longitude from -180, longitude from 0, latitude
     for _, geometry in batches:
         longitude, latitude = shapely.get_coordinates(geometry).T
@@ -115,14 +113,13 @@ def _total_bounds(batches: Iterable[Batch]) -> Box:
 
 
 def _size_km(box: Box) -> tuple[float, float]:
-    """Return the width and height of a box."""
     west, south, east, north = box
     return (east - west) * KM_PER_DEGREE * cos(radians((south + north) / 2)), (north - south) * KM_PER_DEGREE
 
 
 def _is_possible(box: Box) -> bool:
     width_km, height_km = _size_km(box)
-    return max(width_km, height_km) <= MOST_KM and width_km * height_km <= MOST_KM2
+    return max(width_km, height_km) <= MAX_SIDE_KM and width_km * height_km <= MAX_AREA_KM2
 
 
 def _too_large(path: Path, box: Box) -> MapError:
@@ -140,26 +137,23 @@ def _too_large(path: Path, box: Box) -> MapError:
     name, (longitude, latitude) = names[int(np.concatenate(element)[farthest])], lon_lat_deg[farthest].tolist()
     width_km, height_km = _size_km(box)
     return MapError(
-        f"{path}: it spans {width_km:,.0f} x {height_km:,.0f} km, but a map can be at most {MOST_KM:,.0f} km wide and "
-        f"{MOST_KM2:,.0f} square km; farthest from the rest is {name} "
+        f"{path}: it spans {width_km:,.0f} x {height_km:,.0f} km, but a map can be at most {MAX_SIDE_KM:,.0f} km wide "
+        f"and {MAX_AREA_KM2:,.0f} square km; farthest from the rest is {name} "
         f"at latitude {latitude:.7g}, longitude {_longitude(longitude):.7g}: "
         "remove it from the file if it is a mistake, or index a part with --within west,south,east,north"
     )
 
 
 def _centered_frame(box: Box) -> Frame:
-    """Return the frame at the middle of a box."""
     west, south, east, north = box
     return Frame(origin_lat=round((south + north) / 2, 7), origin_lon=round(_longitude((west + east) / 2), 7))
 
 
 def _longitude(degrees: float) -> float:
-    """Return a longitude in -180 to 180 degrees."""
     return degrees - 360 if degrees > 180 else degrees
 
 
 def _read_box(path: Path) -> Box | None:
-    """Return the box in a file's header, or None if it has none."""
     if not path.is_file():
         raise MapError(f"{path}: no such file; give the path of an .osm.pbf or .osm file")
     if not path.name.lower().endswith(SUFFIXES):
@@ -177,7 +171,6 @@ def _read_box(path: Path) -> Box | None:
 
 
 def _read_elements(path: Path) -> Iterator[Batch]:
-    """Yield the elements of the file that belong to a class, in batches."""
     keys = sorted({key for row in load_classes() for key, _ in row.required})
     is_empty = True
     with explained_errors(path):

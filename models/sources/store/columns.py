@@ -132,7 +132,6 @@ class ColumnWriter:
         self._put("object_mean_rgb", np.add.reduceat(rgb, starts[:-1]) / np.diff(starts)[:, None])
 
     def _add_points(self, pools: tuple[str, ...], kinds: Column, starts: Ints, values: tuple[Column, ...]) -> None:
-        """Add the points of each object to the pool of its kind."""
         of_point = np.repeat(kinds, np.diff(starts))
         for kind in np.unique(kinds):
             is_whole = (kinds == kind).all()

@@ -116,7 +116,6 @@ def open_store(path: Path) -> PoseStore:
 
 
 def _add_scene(writer: ColumnWriter, data: Path, name: str, number: int, step: Step | None) -> StoredScene:
-    """Add the cells of a scene, and its poses if there are any."""
     path = data / "cells" / f"{name}.pkl"
     taken = set(writer.cell_ids)
     keys: dict[str, CellKey] = {}

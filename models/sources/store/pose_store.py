@@ -178,7 +178,6 @@ class PoseStore:
         return self._points(int(self._object_rows[row]))
 
     def _sample(self, cells: Ints) -> Floats:
-        """Return sampled points [R, 256, 6] of the parts in some cells."""
         rows = self.cell_rows[cells]
         objects = ranges(self._cell_starts[rows], self._cell_starts[rows + 1])
         return stack_samples([sample_points(*self._points(row)) for row in objects.tolist()])
@@ -195,7 +194,6 @@ class PoseStore:
 
     @cached_property
     def _object_rows(self) -> Ints:
-        """Return the rows [R] of the whole data set."""
         return ranges(self._cell_starts[self.cell_rows], self._cell_starts[self.cell_rows + 1])
 
     @cached_property

@@ -76,7 +76,6 @@ class Walk:
         return True
 
     def _unvisited_neighbours(self, node: Node) -> list[Node]:
-        """Return the neighbours of a crossing behind streets not yet walked."""
         return [b for b in self._plan.neighbours(node) if frozenset((node, b)) not in self._visited]
 
     def _cost(self, a: Node, b: Node) -> float:

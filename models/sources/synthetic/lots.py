@@ -49,9 +49,8 @@ def _build_block(site: Site, west: Line, east: Line, south: Line, north: Line) -
 
 
 def _build_row(site: Site, spot: LocalFrame, width_m: float, depth_m: float, kind: str) -> None:
-    """Build lots of one kind side by side."""
-    usual = LOT_KINDS[kind].width_m
-    count = max(1, round(width_m / float(site.rng.uniform(*usual))))
+    width_range_m = LOT_KINDS[kind].width_m
+    count = max(1, round(width_m / float(site.rng.uniform(*width_range_m))))
     share = site.rng.uniform(0.8, 1.25, count)
     edges = np.concatenate([[0], np.cumsum(share / share.sum())]) * width_m
     for begin, end in zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True):
@@ -61,12 +60,12 @@ def _build_row(site: Site, spot: LocalFrame, width_m: float, depth_m: float, kin
             LOT_KINDS[kind].build(site, lot)
 
 
-def _draw_chance(site: Site, kind: str, usual: float) -> bool:
-    return bool(site.rng.random() < site.habits.rate(kind, usual))
+def _draw_chance(site: Site, kind: str, base_rate: float) -> bool:
+    return bool(site.rng.random() < site.habits.rate(kind, base_rate))
 
 
-def _draw_count(site: Site, kind: str, usual: float) -> int:
-    return int(site.rng.poisson(site.habits.rate(kind, usual)))
+def _draw_count(site: Site, kind: str, base_rate: float) -> int:
+    return int(site.rng.poisson(site.habits.rate(kind, base_rate)))
 
 
 def _draw_between(site: Site, low: float, high: float) -> float:
@@ -92,8 +91,8 @@ def _add_plants(
     site: Site, lot: Lot, x: tuple[float, float], y: tuple[float, float], trees: float, bushes: float
 ) -> None:
     """Add trees and bushes to a part of a lot, some of them one instance with the last."""
-    for kind, make, usual in (("tree", tree, trees), ("bush", bush, bushes)):
-        for _ in range(_draw_count(site, kind, usual)):
+    for kind, make, base_rate in (("tree", tree, trees), ("bush", bush, bushes)):
+        for _ in range(_draw_count(site, kind, base_rate)):
             site.cut_chains(0.4, "vegetation")
             site.add(
                 "vegetation",
@@ -113,9 +112,8 @@ def _add_border(site: Site, spot: LocalFrame, length_m: float, bare: float = 0.3
         site.add(label, spot, make[kind](site.rng, length_m))
 
 
-def _add_furniture(site: Site, lot: Lot, y: float, usual: dict[str, float]) -> None:
-    """Add furniture in front of or next to buildings."""
-    for label, rate in usual.items():
+def _add_furniture(site: Site, lot: Lot, y: float, base_rates: dict[str, float]) -> None:
+    for label, rate in base_rates.items():
         for _ in range(_draw_count(site, label, rate)):
             spot = lot.spot.offset(_draw_between(site, 0.8, lot.width_m - 0.8), y + _draw_between(site, 0, 1.5))
             site.add(label, spot, FURNITURE[label](site.rng))

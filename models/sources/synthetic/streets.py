@@ -126,8 +126,8 @@ def _build_trees(site: Site, stretch: Stretch, flip: float) -> None:
 def _add_furniture(site: Site, stretch: Stretch, flip: float) -> None:
     """Add furniture of all classes along one side, at random places near the curb or near the lots."""
     for label, rate in FURNITURE_RATES.items():
-        usual = site.habits.rate(label, rate) * stretch.length_m / 100 * (1.4 if stretch.line.is_main else 1)
-        for _ in range(int(site.rng.poisson(usual))):
+        expected = site.habits.rate(label, rate) * stretch.length_m / 100 * (1.4 if stretch.line.is_main else 1)
+        for _ in range(int(site.rng.poisson(expected))):
             _place_furniture(site, stretch, flip, label)
 
 

@@ -91,9 +91,9 @@ class Habits:
     colours: Floats  # [21, 8] how often a class has each centre of the palette, in order of `CLASSES`
     exposure: float  # factor on all colours
 
-    def rate(self, kind: str, usual: float) -> float:
-        """Return how often an object occurs here, given its usual rate."""
-        return usual * self.rates.get(kind, 1.0)
+    def rate(self, kind: str, base_rate: float) -> float:
+        """Return how often an object occurs here, given its base rate."""
+        return base_rate * self.rates.get(kind, 1.0)
 
 
 RATED_OBJECTS = (

@@ -5,8 +5,7 @@ that they pass through the same preparation (docs/formats.md) and give similar c
 so that the standard split works. Every number drawn comes from the seed: one seed, one set of files.
 """
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -85,23 +84,16 @@ def write_towns(
         for split, drives in STANDARD_SPLITS.items()
         for drive, style, cells in zip(drives, TOWN_STYLES[split], SIZES[scale][split], strict=True)
     ]
-    with _whole_or_not(out.absolute()) as root:
-        seeds = np.random.SeedSequence(seed).spawn(len(towns))
-        for n, ((scene, style, cells), of_town) in enumerate(zip(towns, seeds, strict=True), start=1):
-            write_town(root, scene, build_town(np.random.default_rng(of_town), style, cells, pieces == "own"))
-            if progress:
-                progress(n, len(towns))
-    return tuple(scene for scene, _, _ in towns)
-
-
-@contextmanager
-def _whole_or_not(out: Path) -> Iterator[Path]:
-    """Wrap `new_directory`; raise DataError if it cannot be written."""
+    seeds = np.random.SeedSequence(seed).spawn(len(towns))
     try:
-        with new_directory(out) as root:
-            yield root
+        with new_directory(out.absolute()) as root:
+            for n, ((scene, style, cells), of_town) in enumerate(zip(towns, seeds, strict=True), start=1):
+                write_town(root, scene, build_town(np.random.default_rng(of_town), style, cells, pieces == "own"))
+                if progress:
+                    progress(n, len(towns))
     except OSError as error:
         raise DataError(f"{out}: cannot be written: {error.strerror or error}") from error
+    return tuple(scene for scene, _, _ in towns)
 
 
 def build_town(rng: np.random.Generator, style: Style, cells: float, own_pieces: bool = False) -> Town:

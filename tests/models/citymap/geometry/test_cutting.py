@@ -96,7 +96,7 @@ def test_cubes_of_few_parts_are_left_empty_for_whom_they_are_too_few(geometry, c
     parts = geometry.cut(cells.center_m)
     sizes = np.diff(parts.starts)
     least = int(np.median(sizes)) + 1
-    rich = geometry.cut(cells.center_m, least=least)
+    rich = geometry.cut(cells.center_m, min_parts=least)
     remaining = np.flatnonzero(sizes >= least)
     assert 0 < len(remaining) < len(cells)
     assert np.array_equal(np.diff(rich.starts), np.where(sizes >= least, sizes, 0))
