@@ -3,7 +3,7 @@
 import asyncio
 import json
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any, Final
 
@@ -29,14 +29,13 @@ _CONTENT_TYPE = re.compile(
 )
 _CHARSET = re.compile(r";\s*charset=([^\s;]*)", re.I)
 
+Reserve = Callable[[int], None]  # for a body of this size
+
 
 class StrictBody:
     """Middleware that checks a body when the route first reads it, so that an unknown path is a 404 whatever the body.
 
-    Args:
-        app: the application behind this middleware.
-        max_bytes: limit of a body.
-        larger: limits of the paths that have another one.
+    `larger` maps paths to limits other than `max_bytes`.
     """
 
     def __init__(self, app: ASGIApp, max_bytes: int, larger: Mapping[str, int] | None = None) -> None:
@@ -51,11 +50,11 @@ class StrictBody:
             await self.app(scope, receive, send)
             return
         max_bytes = self.larger.get(scope["path"], self.max_bytes)
-        with self._large.share() as share:
-            await self.app(scope, self._checked(scope, receive, max_bytes, share), send)
+        with self._large.reservation() as reserve:
+            await self.app(scope, self._checked(scope, receive, max_bytes, reserve), send)
 
     @staticmethod
-    def _checked(scope: Scope, receive: Receive, max_bytes: int, share: "Share") -> Receive:
+    def _checked(scope: Scope, receive: Receive, max_bytes: int, reserve: Reserve) -> Receive:
         is_read = False
 
         async def receive_checked() -> Message:
@@ -66,7 +65,7 @@ class StrictBody:
             check_headers(RequestHeaders(scope=scope), max_bytes)
             try:
                 async with asyncio.timeout(BODY_TIMEOUT_S):
-                    body = await read_body(receive, max_bytes, share)
+                    body = await read_body(receive, max_bytes, reserve)
             except TimeoutError:
                 problem = Problem(Code.BODY_TOO_SLOW)
                 problem.headers = {"Connection": "close"}  # RFC 9110, 15.5.9
@@ -83,50 +82,32 @@ class StrictBody:
 
 
 class LargeBodies:
-    """A bound on the memory of all large bodies together.
-
-    Args:
-        max_bytes: limit of their total size.
-    """
+    """A bound in bytes on all large bodies together."""
 
     def __init__(self, max_bytes: int) -> None:
         self.max_bytes, self.bytes = max_bytes, 0
 
     @contextmanager
-    def share(self) -> Iterator["Share"]:
-        """Yield the share of one request; it is released when the request is answered."""
-        share = Share(self)
+    def reservation(self) -> Iterator[Reserve]:
+        """Yield a function that reserves memory for the body of one request; 429 if other requests use all of it."""
+        reserved = 0
+
+        def reserve(size: int) -> None:
+            nonlocal reserved
+            more = size - reserved if size >= LARGE_BODY_BYTES else 0
+            if self.bytes + more > self.max_bytes:
+                raise Problem(Code.BODIES_FULL)
+            self.bytes += more
+            reserved += more
+
         try:
-            yield share
+            yield reserve
         finally:
-            self.bytes -= share.taken
-
-
-class Share:
-    """The share of one request in `LargeBodies`."""
-
-    def __init__(self, large: LargeBodies) -> None:
-        self._large, self.taken = large, 0
-
-    def grow(self, size: int) -> None:
-        """Reserve memory for a body of this size; small bodies need none.
-
-        Raises:
-            Problem: 429, other requests use all of it.
-        """
-        more = size - self.taken if size >= LARGE_BODY_BYTES else 0
-        if self._large.bytes + more > self._large.max_bytes:
-            raise Problem(Code.BODIES_FULL)
-        self._large.bytes += more
-        self.taken += more
+            self.bytes -= reserved
 
 
 def check_headers(headers: RequestHeaders, max_bytes: int) -> None:
-    """Refuse a body whose headers show the wrong type or too large a size.
-
-    Raises:
-        Problem: 415 or 413.
-    """
+    """Raise 415 or 413 if the headers show the wrong type or too large a size."""
     content_type = _CONTENT_TYPE.fullmatch(headers.get("content-type", ""))
     charsets = _CHARSET.findall(content_type["parameters"]) if content_type else []
     if content_type is None or any(charset.strip('"').lower() != "utf-8" for charset in charsets):
@@ -138,12 +119,8 @@ def check_headers(headers: RequestHeaders, max_bytes: int) -> None:
         raise _too_large(max_bytes)
 
 
-async def read_body(receive: Receive, max_bytes: int, share: Share) -> bytes | None:
-    """Read the body up to the limit; None if the client disconnected.
-
-    Raises:
-        Problem: 413 or 429.
-    """
+async def read_body(receive: Receive, max_bytes: int, reserve: Reserve) -> bytes | None:
+    """Read the body; None if the client disconnected, 413 or 429 if it is too large."""
     body = bytearray()
     while True:
         message = await receive()
@@ -152,17 +129,13 @@ async def read_body(receive: Receive, max_bytes: int, share: Share) -> bytes | N
         body += message.get("body", b"")
         if len(body) > max_bytes:
             raise _too_large(max_bytes)
-        share.grow(len(body))
+        reserve(len(body))
         if not message.get("more_body", False):
             return bytes(body)
 
 
 def check_json(body: bytes) -> None:
-    """Refuse JSON on which parsers disagree or that Python's parser accepts wrongly.
-
-    Raises:
-        Problem: 400: not UTF-8, not JSON, NaN or Infinity, a repeated key, too deep; 413: too many values.
-    """
+    """Raise 400 for JSON that parsers read differently (NaN, repeated keys, deep nesting), 413 for too many values."""
     if len(body) > MAX_JSON_VALUES and sum(map(body.count, (b"[", b"{", b","))) > MAX_JSON_VALUES:
         raise Problem(Code.BODY_TOO_LARGE, f"The body has more than {MAX_JSON_VALUES} values; send fewer.")
     try:

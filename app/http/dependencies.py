@@ -32,11 +32,7 @@ async def get_queue(
     request: Request,
     index: IndexName = DEFAULT_ALIAS,
 ) -> AsyncIterator[InferenceQueue]:
-    """Yield the queue of an index and keep it open until the request is answered.
-
-    Raises:
-        Problem: 404, no such index.
-    """
+    """Yield the queue of an index and keep it open until the request is answered; 404 without such an index."""
     async with (await get_indexes(request)).lease(index) as queue:
         yield queue
 
@@ -51,11 +47,7 @@ Queue = Annotated[InferenceQueue, Depends(get_queue)]
 
 
 async def get_localizer(queue: Queue) -> LocalizerLike:
-    """Return the localizer of an index.
-
-    Raises:
-        Problem: 503 until the index is loaded.
-    """
+    """Return the localizer of an index; 503 until it is loaded."""
     return queue.localizer
 
 

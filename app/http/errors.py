@@ -20,75 +20,89 @@ from models.errors import ReplyError, StoreUnavailable, WeightsError
 PROBLEM_JSON = "application/problem+json"
 MAX_LISTED_ERRORS = 20  # invalid fields in one problem
 MAX_PROBLEM_BYTES = 1024  # a longer problem lists fewer fields
-FIELD_MESSAGES = {  # replace pydantic's messages that do not say what to do
+FIELD_MESSAGES = {  # by pydantic's type of error, with fields of its context
     "missing": "is missing; give it",
     "extra_forbidden": "is unknown; leave it out",
+    "int_type": "must be a whole number",
+    "int_parsing": "must be a whole number",
+    "int_from_float": "must be a whole number",
     "int_parsing_size": "has too many digits; send fewer",
+    "float_type": "must be a number",
+    "float_parsing": "must be a number",
+    "finite_number": "must be a finite number",
+    "greater_than_equal": "must be at least {ge}",
+    "less_than_equal": "must be at most {le}",
+    "bool_type": "must be true or false",
+    "bool_parsing": "must be true or false",
+    "string_type": "must be a string",
+    "string_unicode": "must be valid Unicode",
+    "string_too_short": "must have {min_length} or more characters",
+    "string_too_long": "must have {max_length} or fewer characters",
+    "string_pattern_mismatch": "must match {pattern}",
+    "literal_error": "must be {expected}",
+    "list_type": "must be a list",
+    "tuple_type": "must be a list",
+    "too_short": "must have {min_length} or more items",
+    "too_long": "must have {max_length} or fewer items",
+    "dict_type": "must be a JSON object",
+    "model_type": "must be a JSON object",
+    "model_attributes_type": "must be a JSON object",
 }
 log = structlog.get_logger()
 _PLAIN_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,63}")
 
 
 class Code(Enum):
-    """All errors of the service. The member's name in lower case is the stable `code`.
+    """All errors of the service; the member's name in lower case is the stable `code`."""
 
-    A member holds its HTTP status, title, remedy, and the seconds of Retry-After.
-    """
-
-    INVALID_JSON = (400, "The body is not JSON", "Send one JSON object in UTF-8.", None)
+    INVALID_JSON = (400, "The body is not JSON", "Send one JSON object in UTF-8.")
     KEY_REQUIRED = (
         401,
         "A key is required",
         "Send the service's key as `Authorization: Bearer KEY` or `X-API-Key: KEY`; ask the operator for it.",
-        None,
     )
     KEY_WRONG = (
         401,
         "The key is wrong",
         "Send the key that the service was started with (HEREABOUTS_READ_KEY); ask the operator for it.",
-        None,
     )
     KEY_NOT_SET = (
         403,
         "No key is set, so only local requests may change anything",
         "Set HEREABOUTS_READ_KEY, restart the service, and send that key. Without a key, send the request from the "
         "service's machine, to localhost and not through a proxy.",
-        None,
     )
-    NOT_FOUND = (404, "No such path", "Use a path that /docs lists.", None)
-    INDEX_NOT_FOUND = (404, "No such index", "GET /info lists the served indexes.", None)
-    CELL_NOT_FOUND = (404, "No such cell", "Use a cell_id from an answer of the current index version.", None)
+    NOT_FOUND = (404, "No such path", "Use a path that /docs lists.")
+    INDEX_NOT_FOUND = (404, "No such index", "GET /info lists the served indexes.")
+    CELL_NOT_FOUND = (404, "No such cell", "Use a cell_id from an answer of the current index version.")
     MAP_NOT_FOUND = (
         404,
         "No such map, or no such part of it",
         "GET /info gives the map's name and its number of parts.",
-        None,
     )
-    JOB_NOT_FOUND = (404, "No such job", "Finished jobs are kept only for a while; start a new one.", None)
-    METHOD_NOT_ALLOWED = (405, "The path does not support this method", "Use a method of the Allow header.", None)
-    NOT_ACCEPTABLE = (406, "The format is not available", "Accept application/json or application/geo+json.", None)
-    NO_GEOREFERENCE = (406, "The map has no latitude and longitude", "Accept application/json.", None)
-    BODY_TOO_SLOW = (408, "The body did not arrive in time", "Send it without pauses, or send a smaller body.", None)
+    JOB_NOT_FOUND = (404, "No such job", "Finished jobs are kept only for a while; start a new one.")
+    METHOD_NOT_ALLOWED = (405, "The path does not support this method", "Use a method of the Allow header.")
+    NOT_ACCEPTABLE = (406, "The format is not available", "Accept application/json or application/geo+json.")
+    NO_GEOREFERENCE = (406, "The map has no latitude and longitude", "Accept application/json.")
+    BODY_TOO_SLOW = (408, "The body did not arrive in time", "Send it without pauses, or send a smaller body.")
     INDEX_BROKEN = (
         409,
         "The index directory is broken",
         "Its aliases.json cannot be read; the operator has to restore it or build the index again.",
-        None,
     )
     NOT_WRITABLE = (
         409,
         "The service cannot write to its directory",
         "The directory is read-only or the disk is full; the operator has to fix that. Nothing was changed.",
-        None,
     )
-    BODY_TOO_LARGE = (413, "The body is too large", "Send a smaller body; GET /info gives the limits.", None)
-    UNSUPPORTED_MEDIA_TYPE = (415, "The body has the wrong type", "Send Content-Type: application/json.", None)
-    INVALID_REQUEST = (422, "The request is invalid", "Correct the fields listed in `errors`.", None)
+    BODY_TOO_LARGE = (413, "The body is too large", "Send a smaller body; GET /info gives the limits.")
+    UNSUPPORTED_MEDIA_TYPE = (415, "The body has the wrong type", "Send Content-Type: application/json.")
+    INVALID_REQUEST = (422, "The request is invalid", "Correct the fields listed in `errors`.")
     QUEUE_FULL = (429, "Too many requests are waiting", "Try again after Retry-After seconds.", 1)
     BODIES_FULL = (429, "Too many large bodies at once", "Try again after Retry-After seconds.", 2)
     JOBS_FULL = (429, "Too many evaluations are waiting", "Try again after Retry-After seconds, or cancel one.", 30)
-    CLIENT_CLOSED_REQUEST = (499, "The client closed the connection", "This appears only in the log.", None)
-    INTERNAL_ERROR = (500, "Internal error", "Report it with the request_id.", None)
+    CLIENT_CLOSED_REQUEST = (499, "The client closed the connection", "This appears only in the log.")
+    INTERNAL_ERROR = (500, "Internal error", "Report it with the request_id.")
     NOT_READY = (503, "The model is still loading", "Try again after Retry-After seconds.", 2)
     DRAINING = (503, "The service is shutting down", "Try another replica, or try again after Retry-After seconds.", 5)
     STORE_UNAVAILABLE = (
@@ -101,15 +115,11 @@ class Code(Enum):
         503,
         "The index or the model could not be loaded",
         "The reason is in the service's log, for its operator.",
-        None,
     )
-    DEADLINE_EXCEEDED = (504, "No answer before the deadline", "Send a larger deadline_ms, or try again later.", None)
+    DEADLINE_EXCEEDED = (504, "No answer before the deadline", "Send a larger deadline_ms, or try again later.")
 
-    def __init__(self, status: int, title: str, remedy: str, retry_after_s: int | None) -> None:
-        self.status = status
-        self.title = title
-        self.remedy = remedy
-        self.retry_after_s = retry_after_s
+    def __init__(self, status: int, title: str, remedy: str, retry_after_s: int | None = None) -> None:
+        self.status, self.title, self.remedy, self.retry_after_s = status, title, remedy, retry_after_s
 
     @property
     def code(self) -> str:
@@ -198,11 +208,7 @@ def add_error_handlers(app: FastAPI) -> None:
 
 
 def as_problem(error: Exception) -> "Problem":
-    """Return the problem that describes an error.
-
-    Raises:
-        Exception: the error itself, if it is internal.
-    """
+    """Return the problem that describes an error; an internal error is raised again."""
     if isinstance(error, Problem):
         return error
     if isinstance(error, RequestValidationError):
@@ -244,8 +250,7 @@ def _methods(request: Request) -> set[str]:
 
 def _validation_problem(error: RequestValidationError) -> Problem:
     messages_by_field = dict.fromkeys(  # a parameter that is declared twice is reported twice
-        (field_name(item["loc"], item.get("ctx", {})), FIELD_MESSAGES.get(item["type"], item["msg"]))
-        for item in error.errors()
+        (field_name(item["loc"], item.get("ctx", {})), field_message(item)) for item in error.errors()
     )
     listed = [
         FieldError(field=field, message=message) for field, message in islice(messages_by_field, MAX_LISTED_ERRORS)
@@ -259,12 +264,18 @@ def _validation_problem(error: RequestValidationError) -> Problem:
     return problem
 
 
+def field_message(error: Mapping[str, Any]) -> str:
+    """Return pydantic's error as a sentence that says what to send."""
+    if error["type"] not in FIELD_MESSAGES:
+        return str(error["msg"])
+    return FIELD_MESSAGES[error["type"]].format_map(error.get("ctx", {}))
+
+
 def field_name(location: Sequence[str | int], context: Mapping[str, Any]) -> str:
     """Return the name of a field as a client writes it: "within.bbox[3]".
 
-    Args:
-        location: pydantic's path, which begins with the part of the request ("body", "path").
-        context: pydantic's context of the error; checks of several fields name the invalid one as "field".
+    `location` is pydantic's path and begins with the part of the request ("body"). Checks of several fields name the
+    invalid one as "field" in pydantic's `context`.
     """
     name = ""
     within = (int(step) if step.isdecimal() else step for step in context.get("field", "").split("."))

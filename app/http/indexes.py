@@ -35,11 +35,8 @@ class _ServedIndex:
 class Indexes:
     """Queues by alias. A request leases a queue, so that one version answers it even if the alias changes meanwhile.
 
-    Args:
-        open_index: opens the localizers of an alias and its version; it blocks and runs in a thread.
-        read_aliases: returns the version of each alias; it blocks.
-        max_wait_s: the longest expected wait of a query.
-        check_files: verifies the files of a served version and raises IndexBroken; None to skip the check.
+    `open_index` opens the localizers of an alias and its version, and `read_aliases` returns the version of each alias;
+    both block. `check_files` verifies a served version and raises IndexBroken.
     """
 
     def __init__(
@@ -71,11 +68,7 @@ class Indexes:
         self._watching = asyncio.create_task(self._watch())
 
     def queue(self, alias: str = DEFAULT_ALIAS) -> InferenceQueue:
-        """Return the queue of an alias.
-
-        Raises:
-            Problem: no such alias is served.
-        """
+        """Return the queue of an alias; 404 if it is not served."""
         try:
             return self._served[alias].queue
         except KeyError:
@@ -92,11 +85,7 @@ class Indexes:
 
     @asynccontextmanager
     async def lease(self, alias: str = DEFAULT_ALIAS) -> AsyncIterator[InferenceQueue]:
-        """Yield the queue of an alias and keep it open until the block ends.
-
-        Raises:
-            Problem: no such alias is served.
-        """
+        """Yield the queue of an alias and keep it open until the block ends; 404 if the alias is not served."""
         self.queue(alias)
         served = self._served[alias]
         served.leases += 1
@@ -118,21 +107,13 @@ class Indexes:
         return all(served.queue.is_idle for served in self._served.values())
 
     def check_accepting(self) -> None:
-        """Raise if a query to the default index would not be accepted now.
-
-        Raises:
-            Problem: the service is draining, not ready, or the index failed to load.
-        """
+        """Raise 503 if a query to the default index would not be accepted now."""
         if self._is_draining:
             raise Problem(Code.DRAINING)
         self.queue().check_accepting()
 
     async def check_room(self) -> None:
-        """Refuse a request if the queues of all indexes are full.
-
-        Raises:
-            Problem: all queues are full.
-        """
+        """Raise 429 if the queues of all indexes are full."""
         refusals = [served.queue.refusal() for served in self._served.values()]
         if refusals and refusals[0] is not None and None not in refusals:
             await refuse(refusals[0])
@@ -157,8 +138,7 @@ class Indexes:
     async def _switch(self, alias: str, version: str) -> bool:
         """Open a version and let an alias serve it; requests that hold a lease finish with the previous version.
 
-        Returns:
-            Whether the version was opened; if not, the alias keeps serving its previous version.
+        Return False if the version cannot be opened; the alias then keeps its previous version.
         """
         new = self._begin(alias, version)
         try:
@@ -192,7 +172,6 @@ class Indexes:
         task.add_done_callback(self._retiring.discard)
 
     async def _retire(self, served: _ServedIndex) -> None:
-        """Close a queue once no request uses it."""
         if served.checking is not None:
             _cancel(served.checking)
             await asyncio.wait([served.checking])  # not gather, which would cancel the check a second time
@@ -224,7 +203,7 @@ class Indexes:
             log.info("index verified", alias=alias, index_version=version)
 
     async def _read_versions(self) -> dict[str, str] | None:
-        """Return the version that each alias names; None if the aliases cannot be read."""
+        """Return the version of each alias; None if the aliases cannot be read."""
         try:
             return dict(await asyncio.to_thread(self._read_aliases))
         except (IndexUnusable, OSError) as error:

@@ -47,11 +47,8 @@ Headers = Iterable[tuple[bytes, bytes]]
 class KeyCheck:
     """Middleware that refuses requests without the key before routing, reading the body or queueing.
 
-    Args:
-        app: the application behind this middleware.
-        read_key: the key; None lets anyone read, and only direct requests from this machine change state.
-        open_routes: method and path of the routes that never need the key; GET includes HEAD. Paths are compared
-            literally, so a path with a parameter is never open.
+    Without a key, anyone may read, and only direct requests from this machine change state. `open_routes` never need
+    the key; GET includes HEAD. Paths are compared literally, so a path with a parameter is never open.
     """
 
     def __init__(self, app: ASGIApp, read_key: SecretStr | None, open_routes: Collection[tuple[str, str]]) -> None:
@@ -106,7 +103,7 @@ def is_direct(scope: Scope) -> bool:
 
 
 def _host_name(value: bytes) -> str:
-    """Return the host of a Host header without its port and without the brackets of an IPv6 address."""
+    """Return the host of a Host header without port and brackets."""
     match = _HOST.fullmatch(value.decode("latin-1").strip())
     return (match["address"] or match["name"]).removesuffix(".").lower() if match else ""
 
@@ -123,11 +120,7 @@ def open_routes(routers: Iterable[APIRouter]) -> set[tuple[str, str]]:
 
 
 def check_key(headers: Headers, key: bytes) -> None:
-    """Refuse a request unless it sends the key and no other key.
-
-    Raises:
-        Problem: 401, with the challenge that RFC 6750 requires.
-    """
+    """Raise 401 with RFC 6750's challenge unless a request sends the key and no other key."""
     sent = sent_keys(headers)
     if not sent:
         raise _refusal(Code.KEY_REQUIRED, CHALLENGE)

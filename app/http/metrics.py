@@ -21,11 +21,7 @@ def known_method(method: str) -> str:
 
 
 class Metrics:
-    """The metrics of one application.
-
-    Args:
-        indexes: the served indexes, whose queues are read at each scrape.
-    """
+    """The metrics of one application; the queues of its indexes are read at each scrape."""
 
     def __init__(self, indexes: Indexes) -> None:
         self._registry = CollectorRegistry()
@@ -52,8 +48,6 @@ class Metrics:
 
 
 class _Queues(Collector):
-    """A collector of the queue and the version of each index."""
-
     def __init__(self, indexes: Indexes) -> None:
         self._indexes = indexes
 

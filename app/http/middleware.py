@@ -10,7 +10,6 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.http.errors import Code, Problem
 from app.http.metrics import OTHER, Metrics, known_method
-from app.http.request_notes import get_notes
 
 _SANE_ID = re.compile(r"[A-Za-z0-9._-]{1,64}")
 
@@ -22,14 +21,14 @@ def is_sane_request_id(value: str) -> bool:
     return _SANE_ID.fullmatch(value) is not None
 
 
-class AccessLog:
-    """Middleware that logs and counts each request, and answers uncaught exceptions with 500.
+def descriptions_of(scope: Scope) -> list[str]:
+    """Return the descriptions of one request, to which its route adds; they are logged only if the settings say so."""
+    descriptions: list[str] = scope.setdefault("hereabouts.descriptions", [])
+    return descriptions
 
-    Args:
-        app: the application behind this middleware.
-        metrics: counts requests.
-        log_descriptions: whether log lines contain the descriptions.
-    """
+
+class AccessLog:
+    """Middleware that logs and counts each request, and answers uncaught exceptions with 500."""
 
     def __init__(self, app: ASGIApp, metrics: Metrics, log_descriptions: bool) -> None:
         self.app = app
@@ -41,7 +40,7 @@ class AccessLog:
         if scope["type"] != "http":
             await self.app(scope, receive, send)
             return
-        status, notes = 0, get_notes(scope)
+        status, descriptions = 0, descriptions_of(scope)
         started_s = time.monotonic()
 
         async def note_status(message: Message) -> None:
@@ -67,7 +66,7 @@ class AccessLog:
                 status=status,
                 ms=round(seconds * 1000, 1),
                 request_id=correlation_id.get(),
-                **({"descriptions": notes.descriptions} if self._log_descriptions and notes.descriptions else {}),
+                **({"descriptions": descriptions} if self._log_descriptions and descriptions else {}),
             )
 
 

@@ -36,12 +36,7 @@ def geojson_content() -> dict[str, Any]:
 
 
 def describe(app: FastAPI, needs_key: bool) -> dict[str, Any]:
-    """Return the OpenAPI document of an application, with errors as problem+json; it is built once.
-
-    Args:
-        app: the application.
-        needs_key: whether every route that is not open needs the key.
-    """
+    """Return the OpenAPI document of an application, with errors as problem+json; it is built once."""
     if app.openapi_schema is None:
         document = get_openapi(
             title=app.title, version=app.version, description=app.description, routes=app.routes, tags=app.openapi_tags
@@ -81,7 +76,7 @@ def _require_key(document: dict[str, Any]) -> None:
 
 
 def _as_problem(content: dict[str, Any]) -> None:
-    """Document a response as problem+json instead of FastAPI's application/json and its own 422 model."""
+    """Replace FastAPI's application/json and its own 422 model by problem+json."""
     del content[JSON]
     content.setdefault(PROBLEM_JSON, {})["schema"] = PROBLEM_SCHEMA
 

@@ -54,11 +54,7 @@ class _PendingQuery:
 
 
 async def refuse(problem: Problem) -> NoReturn:
-    """Raise a problem after a short delay.
-
-    Raises:
-        Problem: always, the given one.
-    """
+    """Raise a problem after a short delay."""
     await asyncio.sleep(REFUSAL_DELAY_S)
     raise problem
 
@@ -66,16 +62,11 @@ async def refuse(problem: Problem) -> NoReturn:
 class InferenceQueue:
     """A bounded first-in, first-out queue with one thread per worker.
 
-    One thread opens the localizers. Then each localizer has a thread that takes the query that has waited longest. Each
-    worker computes one query at a time: on a CPU, a batch is no faster per query, and every query would wait for the
-    slowest. The first idle worker gets the query, because its memory and its cache of texts are most likely warm. A
-    query whose client has left or whose deadline has passed is not computed. A query that would wait too long is
-    refused at once.
-
-    Args:
-        open_localizers: called once, in a thread; each localizer it returns gets its own thread.
-        max_queue: the most queries that may wait.
-        max_wait_s: the longest expected wait of an accepted query.
+    One thread calls `open_localizers`. Then each localizer has a thread that takes the query that has waited longest.
+    Each worker computes one query at a time: on a CPU, a batch is no faster per query, and every query would wait for
+    the slowest. The first idle worker gets the query, because its memory and its cache of texts are most likely warm. A
+    query whose client has left or whose deadline has passed is not computed. A query that would wait longer than
+    `max_wait_s` is refused at once.
     """
 
     def __init__(
@@ -102,10 +93,9 @@ class InferenceQueue:
 
     @property
     def localizer(self) -> LocalizerLike:
-        """The first localizer, for its facts and cells; only the threads of the queue may call `localize`.
+        """The first localizer, for its facts and cells; 503 if it is not ready.
 
-        Raises:
-            Problem: it is not ready, or it could not be loaded.
+        Only the threads of the queue may call `localize`.
         """
         if self._failure is not None:
             raise Problem(Code.LOAD_FAILED, self._failure)
@@ -144,11 +134,7 @@ class InferenceQueue:
             return not self._pending and not self._computing
 
     def check_accepting(self) -> None:
-        """Raise if a query would not be accepted now.
-
-        Raises:
-            Problem: the queue is draining, not ready, or failed to load.
-        """
+        """Raise 503 if a query would not be accepted now."""
         if self._is_draining:
             raise Problem(Code.DRAINING)
         _ = self.localizer
@@ -165,11 +151,7 @@ class InferenceQueue:
         self._is_draining = True
 
     def fail(self, reason: str) -> None:
-        """Refuse all queries from now on, including the waiting ones: the opened index is corrupt.
-
-        Args:
-            reason: what is wrong and what to do, as clients will see it.
-        """
+        """Refuse all queries from now on, including the waiting ones; `reason` tells clients what to do."""
         with self._lock:
             self._failure = reason
             waiting = [self._pending.popleft() for _ in range(len(self._pending))]
@@ -190,12 +172,8 @@ class InferenceQueue:
     async def submit(self, query: Query, deadline_s: float) -> ServedAnswer:
         """Answer a query. If the caller is cancelled before the computation begins, the query is not computed.
 
-        Args:
-            query: the query.
-            deadline_s: the time.monotonic() after which the answer is useless.
-
-        Raises:
-            Problem: the queue is full, accepts no queries, or did not answer before the deadline.
+        `deadline_s` is in time.monotonic(). Raise 429 if the queue is full, 503 if it accepts no queries, 504 after the
+        deadline.
         """
         pending = _PendingQuery(query, deadline_s)
         with self._lock:
@@ -245,7 +223,6 @@ class InferenceQueue:
             self._run(0, localizers[0])
 
     def _try_to_open(self) -> Sequence[LocalizerLike]:
-        """Return the localizers; none if they cannot be opened."""
         try:
             localizers = self._open_localizers()
         except HereaboutsError as error:

@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from app.http.bodies import check_json
-from app.http.errors import Problem, field_name
+from app.http.errors import Problem, field_message, field_name
 from app.http.schemas.evaluate_requests import EvaluateQuery, EvaluateRequest
 from app.settings import Settings
 from index.answering.query import DEFAULT_REFINE, Refine
@@ -224,7 +224,7 @@ def read_evaluation(path: Path, settings: Settings, split: str | None, grow_m: l
     except ValidationError as error:
         first = error.errors()[0]
         field = field_name(("file", *first["loc"]), first.get("ctx", {}))
-        raise DataError(f"{path}: {field}: {first['msg']}") from None
+        raise DataError(f"{path}: {field}: {field_message(first)}") from None
     except Problem as problem:
         raise DataError(f"{path}: {problem.detail}") from None
 

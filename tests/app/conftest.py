@@ -1,4 +1,5 @@
 import logging
+import re
 import sys
 import threading
 import time
@@ -222,6 +223,7 @@ def problem():
         assert body["request_id"] == response.headers["x-request-id"]
         assert set(body) <= {"type", "title", "status", "detail", "code", "request_id", "errors"}
         assert len(response.content) < 5000
+        assert not re.search(r"Input should|should (be|have|match)|validation", response.text), "pydantic's words"
         if field is not None:
             assert field in [error["field"] for error in body["errors"]]
         return body

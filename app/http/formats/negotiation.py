@@ -19,9 +19,7 @@ _QUALITY = re.compile(r"0(\.\d{0,3})?|1(\.0{0,3})?")
 def choose_media_type(accept: str, offers: Sequence[str]) -> str | None:
     """Return the offer that an Accept header prefers, the first of equals; None if it accepts none.
 
-    Args:
-        accept: value of the header; an empty one accepts anything. Malformed ranges are ignored.
-        offers: media types, the preferred one first.
+    An empty header accepts anything, and malformed ranges are ignored.
     """
     if not accept.strip():
         return offers[0]
@@ -31,11 +29,7 @@ def choose_media_type(accept: str, offers: Sequence[str]) -> str | None:
 
 
 def negotiate(request: Request, frame: Frame) -> str:
-    """Return the media type of the answer: JSON, or GeoJSON if requested and the map is georeferenced.
-
-    Raises:
-        Problem: 406.
-    """
+    """Return JSON, or GeoJSON if requested and the map is georeferenced; 406 if the client accepts neither."""
     accept = ",".join(request.headers.getlist("accept"))
     media_type = choose_media_type(accept, (JSON, GEOJSON) if frame.is_georeferenced else (JSON,))
     if media_type is None:

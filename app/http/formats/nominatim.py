@@ -21,13 +21,7 @@ Box = tuple[float, float, float, float]
 
 
 def search_results(response: LocalizeResponse, localizer: LocalizerLike, limit: int) -> list[Place]:
-    """Return the estimate and the candidates that are at least MIN_SEPARATION_M from better results.
-
-    Args:
-        response: an answer in a georeferenced frame.
-        localizer: describes each place in words.
-        limit: the most results.
-    """
+    """Return the estimate and the candidates that are at least MIN_SEPARATION_M from better results."""
     if response.estimate is None:
         return []
     estimate = response.estimate

@@ -87,8 +87,10 @@ async def reverse(
 
 def _as_query_error(error: Any) -> dict[str, Any]:
     """Convert an error of the request body to one of the query parameter that the field was made from."""
-    steps = (*error["loc"], *error.get("ctx", {}).get("field", "").split("."))
-    return {**error, "loc": ("query", "q" if {"within", "prior"}.isdisjoint(steps) else "viewbox"), "ctx": {}}
+    context = error.get("ctx", {})
+    steps = (*error["loc"], *context.get("field", "").split("."))
+    name = "q" if {"within", "prior"}.isdisjoint(steps) else "viewbox"
+    return {**error, "loc": ("query", name), "ctx": {**context, "field": ""}}
 
 
 def _respond(content: Any, form: Format) -> Response:
@@ -96,11 +98,7 @@ def _respond(content: Any, form: Format) -> Response:
 
 
 def _georeferenced_frame(queue: InferenceQueue) -> Frame:
-    """Return the frame of an index.
-
-    Raises:
-        Problem: the map has no georeference.
-    """
+    """Return the frame of an index; 406 if the map has no georeference."""
     frame = queue.localizer.frame
     if not frame.is_georeferenced:
         raise Problem(Code.NO_GEOREFERENCE, "This map has no latitude and longitude; use POST /localize.")
@@ -108,11 +106,7 @@ def _georeferenced_frame(queue: InferenceQueue) -> Frame:
 
 
 def _search_area(viewbox: str | None, bounded: bool, frame: Frame) -> dict[str, Any]:
-    """Return the fields of POST /localize for a viewbox: a filter if bounded, otherwise a prior at its middle.
-
-    Raises:
-        Problem: the viewbox is not valid.
-    """
+    """Return the fields of POST /localize for a viewbox: a filter if bounded, otherwise a prior at its middle."""
     if viewbox is None:
         return {}
     try:

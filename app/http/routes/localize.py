@@ -16,9 +16,9 @@ from app.http.dependencies import AllIndexes
 from app.http.errors import Code, Problem
 from app.http.formats.geojson import localize_collection
 from app.http.formats.negotiation import GEOJSON, negotiate, respond
+from app.http.middleware import descriptions_of
 from app.http.openapi import geojson_content, problems
 from app.http.queue import UNAVAILABLE, InferenceQueue, ServedAnswer
-from app.http.request_notes import get_notes
 from app.http.schemas.requests import DescribeRequest, LocalizeRequest
 from app.http.schemas.responses import LocalizeResponse
 from app.http.schemas.ros import to_ros_pose
@@ -74,14 +74,10 @@ async def localize(
 
 
 async def localize_for(request: Request, body: LocalizeRequest, queue: InferenceQueue) -> LocalizeResponse:
-    """Return the answer to a description; cancel the query if the client disconnects.
-
-    Raises:
-        Problem: the query was refused or too late, or the client disconnected.
-    """
+    """Return the answer to a description; cancel the query if the client disconnects."""
     started_s = time.monotonic()
     deadline_s = started_s + body.deadline_ms / 1000
-    get_notes(request.scope).descriptions.append(body.text())
+    descriptions_of(request.scope).append(body.text())
     served = await run_while_connected(request, queue.submit(body.to_query(), deadline_s))
     timings_ms = {"queue": served.queue_ms, "total": (time.monotonic() - started_s) * 1000}
     response = LocalizeResponse.build(
@@ -93,11 +89,7 @@ async def localize_for(request: Request, body: LocalizeRequest, queue: Inference
 
 
 def check_reach(body: LocalizeRequest | DescribeRequest, frame: Frame) -> None:
-    """Refuse degrees that cannot be projected into the map's frame.
-
-    Raises:
-        Problem: the map has no georeference, or a point is too far away.
-    """
+    """Raise 422 for degrees that cannot be projected into the map's frame."""
     if body.crs == "map":
         return
     if not frame.is_georeferenced:
@@ -109,11 +101,7 @@ def check_reach(body: LocalizeRequest | DescribeRequest, frame: Frame) -> None:
 
 
 async def run_while_connected(request: Request, work: Coroutine[Any, Any, ServedAnswer]) -> ServedAnswer:
-    """Return the result of some work; cancel it when the client disconnects, which FastAPI does not do.
-
-    Raises:
-        Problem: the client disconnected.
-    """
+    """Return the result of some work; cancel it when the client disconnects, which FastAPI does not do."""
     working = asyncio.create_task(work)
     leaving = asyncio.create_task(_disconnected(request))
     try:

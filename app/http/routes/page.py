@@ -78,11 +78,7 @@ class PageFile:
 
 
 def build_router(page_dir: Path) -> APIRouter:
-    """Return one route per file, so that a client's path never reaches the disk; index.html is served at /.
-
-    Args:
-        page_dir: output of the page's build; without an index.html, / explains how to build the page.
-    """
+    """Return one route per file, so that a client's path never reaches the disk; index.html is served at /."""
     router = APIRouter(include_in_schema=False)
     methods = ["GET", "HEAD"]
     if not (page_dir / INDEX).is_file():

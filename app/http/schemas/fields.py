@@ -1,7 +1,7 @@
 """Types and checks that the fields of requests share."""
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import Annotated
 
 from pydantic import Field, JsonValue, Strict, StringConstraints
@@ -32,11 +32,7 @@ def field_error(message: str, field: str = "") -> PydanticCustomError:
 
 
 def check_text(text: str) -> str:
-    """Refuse a text without words or with control characters.
-
-    Raises:
-        PydanticCustomError: the text is refused; the message does not quote it.
-    """
+    """Refuse a text without words or with control characters; the message does not quote it."""
     if _CONTROL.search(text):
         raise field_error("contains a control character; send plain text")
     if not any(character.isalnum() for character in text):
@@ -45,11 +41,7 @@ def check_text(text: str) -> str:
 
 
 def check_bbox(bbox: tuple[float, float, float, float]) -> tuple[float, float, float, float]:
-    """Refuse a box whose sides are in the wrong order.
-
-    Raises:
-        PydanticCustomError: a minimum is greater than its maximum.
-    """
+    """Refuse a box whose sides are in the wrong order."""
     west, south, east, north = bbox
     if west > east:
         raise field_error("west is greater than east; send [west, south, east, north]")
@@ -59,15 +51,7 @@ def check_bbox(bbox: tuple[float, float, float, float]) -> tuple[float, float, f
 
 
 def check_degrees(crs: Crs, points: Iterable[tuple[str, Point]]) -> None:
-    """Refuse longitudes and latitudes out of range.
-
-    Args:
-        crs: the reference system of the points.
-        points: (x, y) or (lon, lat), each with the name of its field.
-
-    Raises:
-        PydanticCustomError: a point is out of range.
-    """
+    """Refuse longitudes and latitudes out of range; each point comes with the name of its field."""
     for field, (lon, lat) in points if crs == "wgs84" else ():
         if not (-180 <= lon <= 180 and -90 <= lat <= 90):
             raise field_error("must be [longitude -180..180, latitude -90..90]; for metres, send crs map", field)
@@ -85,11 +69,3 @@ def one_of(first: str, first_type: str, second: str, second_type: str) -> dict[s
             for given in types
         ]
     }
-
-
-DESCRIPTION_OR_HINTS = one_of("description", "string", "hints", "array")
-
-
-def join_hints(hints: Sequence[str]) -> str:
-    """Join hints into one description, one per line."""
-    return "\n".join(hints)

@@ -14,7 +14,6 @@ from pydantic import (
 )
 
 from app.http.schemas.fields import (
-    DESCRIPTION_OR_HINTS,
     Coordinate,
     IndexName,
     Length,
@@ -23,7 +22,6 @@ from app.http.schemas.fields import (
     check_degrees,
     check_text,
     field_error,
-    join_hints,
     one_of,
 )
 from app.limits import (
@@ -50,6 +48,7 @@ from models.errors import DescriptionError
 from models.language.sentences import split_hints
 
 EXAMPLE: JsonValue = {"description": "I am north of a gray building. A black pole is to my west.", "top_k": 3}
+DESCRIPTION_OR_HINTS = one_of("description", "string", "hints", "array")
 DESCRIBE_EXAMPLE: JsonValue = {"position": [105.0, -35.0]}
 MAX_ID_CHARACTERS = 1000  # far longer than any name or any question with four colours
 
@@ -114,11 +113,7 @@ class GivenAnswer(Body):
 
 
 def check_sentences(description: str) -> str:
-    """Refuse a description with too many sentences or with none.
-
-    Raises:
-        PydanticCustomError: the description is refused; the message does not quote it.
-    """
+    """Refuse a description with too many sentences or with none; the message does not quote it."""
     try:
         count = len(split_hints(description))
     except DescriptionError as error:
@@ -129,16 +124,12 @@ def check_sentences(description: str) -> str:
 
 
 def check_hints(hints: list[str]) -> list[str]:
-    """Refuse hints that are too long in total.
-
-    Raises:
-        PydanticCustomError: the hints are refused; the message does not quote them.
-    """
+    """Refuse hints that are too long in total."""
     if sum(map(len, hints)) > MAX_DESCRIPTION_CHARACTERS:
         raise field_error(
             f"have more than {MAX_DESCRIPTION_CHARACTERS} characters in total; send fewer or shorter hints"
         )
-    check_sentences(join_hints(hints))
+    check_sentences("\n".join(hints))
     return hints
 
 
@@ -168,7 +159,7 @@ class DescriptionFields(Body):
 
     def text(self) -> str:
         """Return the description; hints are joined, one per line."""
-        return join_hints(self.hints or ()) if self.description is None else self.description
+        return "\n".join(self.hints or ()) if self.description is None else self.description
 
 
 REFINE: Any = Field(

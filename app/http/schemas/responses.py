@@ -1,6 +1,6 @@
 """Responses: the localizer's dataclasses and the service's own fields. NaN is refused."""
 
-from dataclasses import fields
+from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -65,13 +65,7 @@ class Provenance(_Out):
     def build(
         cls, localizer: LocalizerLike, model: ModelName | None = None, index: str = DEFAULT_ALIAS
     ) -> "Provenance":
-        """Return the provenance of an answer.
-
-        Args:
-            localizer: the localizer that answered.
-            model: the model that answered; None for the model of the index.
-            index: the alias in the request.
-        """
+        """Return the provenance of an answer of `model`, by default the model of the index."""
         facts = localizer.facts
         model = model or facts.model
         return cls(
@@ -82,6 +76,18 @@ class Provenance(_Out):
             map=facts.map_name,
             attribution=facts.attribution,
         )
+
+
+def _origin(
+    localizer: LocalizerLike, model: ModelName | None = None, index: str = DEFAULT_ALIAS
+) -> dict[str, CrsOut | Provenance]:
+    """Return the fields of a response that say where it comes from."""
+    return {"crs": CrsOut.from_frame(localizer.frame), "provenance": Provenance.build(localizer, model, index)}
+
+
+def _common_fields(response: type[BaseModel], source: object) -> dict[str, Any]:
+    """Return the fields of a response that an object of the localizer has too."""
+    return {name: getattr(source, name) for name in response.model_fields if hasattr(source, name)}
 
 
 class LocalizeResponse(_Out):
@@ -117,19 +123,9 @@ class LocalizeResponse(_Out):
         timings_ms: dict[str, float],
         index: str = DEFAULT_ALIAS,
     ) -> "LocalizeResponse":
-        """Build the response from a localizer's answer.
-
-        Args:
-            answer: the answer.
-            localizer: the localizer that gave it.
-            request_id: id of the request.
-            timings_ms: the service's timings, added to the localizer's.
-            index: the alias in the request.
-        """
-        values = {f.name: getattr(answer, f.name) for f in fields(answer) if f.name != "model"}
-        values["timings_ms"] = {**answer.timings_ms, **timings_ms}
-        crs, provenance = CrsOut.from_frame(localizer.frame), Provenance.build(localizer, answer.model, index)
-        return cls(request_id=request_id, crs=crs, provenance=provenance, **values)
+        """Build the response from a localizer's answer; the service's timings are added to the localizer's."""
+        values = _common_fields(cls, answer) | _origin(localizer, answer.model, index)
+        return cls(**values | {"request_id": request_id, "timings_ms": {**answer.timings_ms, **timings_ms}})
 
 
 class DescribeResponse(_Out):
@@ -158,9 +154,8 @@ class DescribeResponse(_Out):
         index: str = DEFAULT_ALIAS,
     ) -> "DescribeResponse":
         """Build the response from a described position; the other arguments are those of `LocalizeResponse.build`."""
-        values = {f.name: getattr(described, f.name) for f in fields(described)}
-        crs, provenance = CrsOut.from_frame(localizer.frame), Provenance.build(localizer, index=index)
-        return cls(request_id=request_id, crs=crs, provenance=provenance, timings_ms=timings_ms, **values)
+        values = _common_fields(cls, described) | _origin(localizer, index=index)
+        return cls(request_id=request_id, timings_ms=timings_ms, **values)
 
 
 class CellResponse(_Out):
@@ -178,8 +173,7 @@ class CellResponse(_Out):
     @classmethod
     def build(cls, cell: CellDetail, localizer: LocalizerLike) -> "CellResponse":
         """Build the response from a localizer's cell."""
-        values = {f.name: getattr(cell, f.name) for f in fields(cell)}
-        return cls(crs=CrsOut.from_frame(localizer.frame), provenance=Provenance.build(localizer), **values)
+        return cls(**_common_fields(cls, cell), **_origin(localizer))
 
 
 class CellsResponse(_Out):
@@ -247,16 +241,7 @@ class IndexInfo(_Out):
     @classmethod
     def build(cls, localizer: LocalizerLike) -> "IndexInfo":
         """Describe the index of a localizer."""
-        facts = localizer.facts
-        return cls(
-            num_cells=facts.num_cells,
-            num_instances=facts.num_instances,
-            dim=facts.dim,
-            scenery_parts=facts.scenery_parts,
-            created=facts.created,
-            crs=CrsOut.from_frame(localizer.frame),
-            provenance=Provenance.build(localizer),
-        )
+        return cls(**_common_fields(cls, localizer.facts), **_origin(localizer))
 
 
 class InfoResponse(_Out):

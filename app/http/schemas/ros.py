@@ -65,13 +65,7 @@ class PoseWithCovarianceStamped(BaseModel):
 
 
 def to_ros_pose(estimate: Estimate, frame_id: str, now_s: float | None = None) -> PoseWithCovarianceStamped:
-    """Convert an estimate to a ROS pose.
-
-    Args:
-        estimate: the estimate in metres, map frame.
-        frame_id: ROS name of the map frame.
-        now_s: Unix time of the answer; None for now.
-    """
+    """Convert an estimate in metres, map frame, to a ROS pose; `now_s` is the Unix time, by default now."""
     seconds, rest = divmod(time.time() if now_s is None else now_s, 1)
     yaw, yaw_rad2 = 0.0, UNKNOWN_RAD2
     if estimate.heading is not None:

@@ -8,7 +8,7 @@ from starlette.datastructures import Headers
 
 from app import limits
 from app.http import bodies
-from app.http.bodies import LARGE_BODY_BYTES, MAX_JSON_VALUES, LargeBodies, Share, check_headers, check_json, read_body
+from app.http.bodies import LARGE_BODY_BYTES, MAX_JSON_VALUES, LargeBodies, check_headers, check_json, read_body
 from app.http.errors import Problem
 
 JSON = {"Content-Type": "application/json"}
@@ -94,7 +94,7 @@ def test_a_body_is_read_no_further_than_the_limit():
         return {"type": "http.request", "body": b"x" * 10, "more_body": True}
 
     with pytest.raises(Problem, match="more than 25 bytes"):
-        asyncio.run(read_body(receive, 25, Share(LargeBodies(1))))
+        asyncio.run(read_body(receive, 25, lambda _size: None))
     assert reads == 3
 
 
@@ -109,7 +109,7 @@ def test_client_that_leaves_in_the_body_is_no_body():
     async def receive():
         return {"type": "http.disconnect"}
 
-    assert asyncio.run(read_body(receive, 25, Share(LargeBodies(1)))) is None
+    assert asyncio.run(read_body(receive, 25, lambda _size: None)) is None
 
 
 @pytest.mark.parametrize("parameters", ["", "; charset=UTF-8", ';charset="utf-8"', "; v=1", ";"])
@@ -148,17 +148,17 @@ def test_a_large_body_with_few_values_is_taken(api, problem):
 
 def test_large_bodies_have_a_bound_together():
     large = LargeBodies(3 * LARGE_BODY_BYTES)
-    with large.share() as one, large.share() as two, large.share() as three:
-        one.grow(LARGE_BODY_BYTES)
-        one.grow(2 * LARGE_BODY_BYTES)
-        two.grow(LARGE_BODY_BYTES - 1)
-        two.grow(LARGE_BODY_BYTES)
-        three.grow(LARGE_BODY_BYTES - 1)
+    with large.reservation() as one, large.reservation() as two, large.reservation() as three:
+        one(LARGE_BODY_BYTES)
+        one(2 * LARGE_BODY_BYTES)
+        two(LARGE_BODY_BYTES - 1)
+        two(LARGE_BODY_BYTES)
+        three(LARGE_BODY_BYTES - 1)
         with pytest.raises(Problem, match="Retry-After"):
-            three.grow(LARGE_BODY_BYTES)
+            three(LARGE_BODY_BYTES)
     assert large.bytes == 0
-    with large.share() as again:
-        again.grow(3 * LARGE_BODY_BYTES)
+    with large.reservation() as again:
+        again(3 * LARGE_BODY_BYTES)
 
 
 def test_a_body_that_does_not_come_is_given_up(settings, fake, start, monkeypatch):

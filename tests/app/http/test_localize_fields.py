@@ -108,6 +108,25 @@ def test_wrong_field_is_a_422_and_nothing_is_computed(api, fake, problem, body, 
     assert fake.batches == []
 
 
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        ({"top_k": "x"}, "top_k: must be a whole number"),
+        ({"top_k": 41}, "top_k: must be at most 40"),
+        ({"refine": "guess"}, "refine: must be 'none', 'matching', 'regressor' or 'posterior'"),
+        ({"hints": []}, "hints: must have 1 or more items"),
+        ({"description": 5}, "description: must be a string"),
+        ({"heat_map": 1}, "heat_map: must be true or false"),
+        ({"within": []}, "within: must be a JSON object"),
+        ({"prior": {"position": 7, "sigma_m": 1}}, "prior.position: must be a list"),
+        ({"prior": {"position": ["x", 1], "sigma_m": 1}}, "prior.position[0]: must be a number"),
+    ],
+)
+def test_wrong_type_says_what_to_send(api, problem, wrong, message):
+    body = {**({} if "hints" in wrong else {"description": "a tree"}), **wrong}
+    assert problem(api.post("/localize", json=body), 422, "invalid_request")["detail"] == message
+
+
 def test_body_that_is_no_object_is_422(api, problem):
     problem(api.post("/localize", json=["a tree"]), 422, "invalid_request", "(body)")
 
