@@ -33,14 +33,9 @@ _Call = tuple[str, str, dict[str, Any] | None]
 
 
 class ServiceError(Exception):
-    """The service refused a request or could not be reached.
+    """The service refused a request or could not be reached; `status` is then 0 and `code` "no_answer".
 
-    Attributes:
-        status: HTTP status; 0 if there was no answer.
-        code: stable code, listed at /docs; "no_answer" if there was no answer.
-        detail: what is wrong and what to do.
-        errors: the invalid fields: field, message.
-        request_id: id of the request in the service's log.
+    `errors` lists the invalid fields, each with field and message.
     """
 
     def __init__(
@@ -54,8 +49,7 @@ class ServiceError(Exception):
 class Options(TypedDict, total=False):
     """The options of `localize`: fields of POST /localize with the same names, documented at /docs.
 
-    Attributes:
-        answers: replies to questions of earlier answers: question id to choice.
+    `answers` are replies to questions of earlier answers: question id to choice.
     """
 
     top_k: int
@@ -71,14 +65,9 @@ class Options(TypedDict, total=False):
 
 
 class Client:
-    """A synchronous client.
+    """A synchronous client; its methods raise ServiceError if the request is refused or the service does not answer.
 
-    Args:
-        url: address of the service.
-        key: the read key of the service, if it needs one.
-        tries: the most attempts per request.
-        timeout_s: time-out of one attempt.
-        transport: a transport of httpx, for tests.
+    `transport` is a transport of httpx, for tests.
     """
 
     def __init__(
@@ -93,27 +82,15 @@ class Client:
         self._tries = tries
 
     def localize(self, text: str | Sequence[str], **options: Unpack[Options]) -> LocalizeResponse:
-        """Localize the speaker of a description, or of a list of sentences.
-
-        Raises:
-            ServiceError: the request was refused, or the service did not answer.
-        """
+        """Localize the speaker of a description, or of a list of sentences."""
         return self._send(LocalizeResponse, _localize(text, options))
 
     def describe(self, position: tuple[float, float], crs: Crs = "map", index: str = "default") -> DescribeResponse:
-        """Describe a position: [x, y] in metres, or [longitude, latitude] with crs wgs84.
-
-        Raises:
-            ServiceError: the request was refused, or the service did not answer.
-        """
+        """Describe a position: [x, y] in metres, or [longitude, latitude] with crs wgs84."""
         return self._send(DescribeResponse, _describe(position, crs, index))
 
     def info(self) -> InfoResponse:
-        """Return the limits and the indexes of the service.
-
-        Raises:
-            ServiceError: the service did not answer.
-        """
+        """Return the limits and the indexes of the service."""
         return self._send(InfoResponse, _INFO)
 
     def close(self) -> None:

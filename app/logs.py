@@ -11,9 +11,7 @@ from app.redaction import redacted_traceback
 def configure_logging(level: str, with_messages: bool = False) -> None:
     """Send structlog and the standard library's logging to stderr as JSON lines.
 
-    Args:
-        level: lowest level to log: "debug", "info", "warning" or "error".
-        with_messages: whether to log messages of exceptions, which may quote a user's text.
+    `with_messages` also logs messages of exceptions, which may quote a user's text.
     """
     without_messages = structlog.processors.ExceptionRenderer(lambda exc_info: redacted_traceback(exc_info[1]))
     shared: list[structlog.typing.Processor] = [

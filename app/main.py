@@ -41,13 +41,7 @@ Errors are problem+json (RFC 9457); `code` is stable:
 def create_app(
     settings: Settings, open_localizer: Callable[[], LocalizerLike] | None = None, page_dir: Path = page.PAGE_DIR
 ) -> FastAPI:
-    """Create the application.
-
-    Args:
-        settings: the operator's settings.
-        open_localizer: opens a localizer in a thread when the service starts; None opens settings.index_dir in workers.
-        page_dir: output of the page's build.
-    """
+    """Create the application; `open_localizer` replaces the workers that open settings.index_dir."""
     indexes = _build_indexes(settings, open_localizer)
     jobs = EvaluationJobs(settings.jobs_dir)
 
@@ -73,7 +67,6 @@ def create_app(
 
 
 def _build_indexes(settings: Settings, open_localizer: Callable[[], LocalizerLike] | None) -> Indexes:
-    """Return the served indexes: in workers, or the given localizer."""
     if open_localizer is not None:
         return Indexes(lambda _alias, _version: [open_localizer()], dict, settings.max_wait_ms / 1000)
     opener, read = partial(_open_workers, settings), partial(_read_aliases, settings.index_dir)
@@ -81,7 +74,6 @@ def _build_indexes(settings: Settings, open_localizer: Callable[[], LocalizerLik
 
 
 def _create_fastapi(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]]) -> FastAPI:
-    """Create an application without routes."""
     return FastAPIOffline(
         title="Hereabouts",
         version=version("hereabouts"),
@@ -113,14 +105,13 @@ def _add_routes(app: FastAPI, settings: Settings, page_dir: Path) -> None:
 
 
 def _open_workers(settings: Settings, alias: str, version: str | None) -> Sequence[LocalizerLike]:
-    """Open an index in workers: the version of an alias, or a directory that is itself a version."""
     return open_workers(localizer_spec(settings, version), settings.workers or usable_cpus())
 
 
 def localizer_spec(settings: Settings, version: str | None = None) -> LocalizerSpec:
     """Return what to open: a version in the index directory, or its default version."""
     directory = settings.index_dir / version if version else settings.index_dir
-    return LocalizerSpec(directory, settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir)
+    return LocalizerSpec(directory, *settings.weights)
 
 
 def _read_aliases(index_dir: Path) -> dict[str, str]:

@@ -97,12 +97,7 @@ def serve(app: FastAPI, settings: Settings) -> None:
 
 
 def page_url(host: str, port: int) -> str:
-    """Return the URL of the page for a browser on this machine.
-
-    Args:
-        host: the listening address; an unspecified one ("0.0.0.0") becomes localhost.
-        port: the listening port.
-    """
+    """Return the URL of the page for a browser on this machine; an unspecified host ("0.0.0.0") becomes localhost."""
     address = address_of(host)
     if not host or (address and address.is_unspecified):
         host = "localhost"

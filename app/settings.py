@@ -3,12 +3,15 @@
 import re
 from ipaddress import IPv4Address, IPv6Address, ip_address
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field, PositiveInt, SecretStr, ValidationError, field_validator
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
 from models.errors import HereaboutsError
+
+if TYPE_CHECKING:
+    from index.answering.localizer import Localizer
 
 _KEY = re.compile(r"[!-~]{8,}")  # characters that every client and proxy can send in a header
 
@@ -42,6 +45,11 @@ class Settings(BaseSettings):
         False, description="whether to log descriptions and messages of internal errors, which may quote them"
     )
 
+    @property
+    def weights(self) -> tuple[Path | None, Path | None, Path | None]:
+        """The directories of the weights in the order of `Localizer.open`."""
+        return self.weights_dir, self.fine_weights_dir, self.posterior_weights_dir
+
     @field_validator("read_key")
     @classmethod
     def _key_can_be_sent(cls, key: SecretStr | None) -> SecretStr | None:
@@ -54,11 +62,7 @@ class Settings(BaseSettings):
 
 
 def load_settings(**overrides: object) -> Settings:
-    """Load settings from the environment; arguments override it.
-
-    Raises:
-        HereaboutsError: a value is invalid; the message names the setting.
-    """
+    """Load settings from the environment; arguments override it. HereaboutsError names an invalid setting."""
     try:
         return Settings.model_validate(overrides)
     except ValidationError as error:
@@ -66,6 +70,13 @@ def load_settings(**overrides: object) -> Settings:
             f"{'.'.join(map(str, item['loc'])) or 'settings'}: {item['msg']}" for item in error.errors()
         )
         raise HereaboutsError(f"{problems}; correct the option or the HEREABOUTS_ variable of that name") from None
+
+
+def open_index(index_dir: Path) -> "Localizer":
+    """Open an index with the weights of the settings."""
+    from index.answering.localizer import Localizer  # noqa: PLC0415  # imports torch, which takes seconds
+
+    return Localizer.open(index_dir, *load_settings().weights)
 
 
 def is_local(host: str) -> bool:

@@ -19,11 +19,7 @@ def set_thread_env(threads: int = 1, environ: MutableMapping[str, str] = os.envi
 
 
 def usable_cpus(root: Path = Path("/")) -> int:
-    """Return the number of CPUs by affinity or cgroup quota, whichever is less; at least 1.
-
-    Args:
-        root: directory with proc/ and sys/.
-    """
+    """Return the number of CPUs by affinity or cgroup quota, whichever is less; `root` has proc/ and sys/."""
     affinity = len(os.sched_getaffinity(0))
     return max(1, int(min([float(affinity), *_quotas(root)])))
 

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 from app.benchmark.processes import measure_index, serving
 from app.benchmark.questions import BenchmarkQuery, draw_queries, localize_all, split_questions
 from app.benchmark.searches import measure_searches
-from app.benchmark.service import PARTS, measure_parts, open_index
+from app.benchmark.service import PARTS, measure_parts
+from app.settings import open_index
 from models.errors import DataError, HereaboutsError
 from models.sources.osm.city_copies import CityExtract, CopyGrid
 
@@ -26,11 +27,7 @@ REPORT_FILE = "benchmark.json"
 
 
 def parse_sizes(text: str) -> list[int]:
-    """Parse numbers of cells such as "1e4,1e5"; return them sorted and without duplicates.
-
-    Raises:
-        DataError: the text is not a list of numbers of at least 1.
-    """
+    """Parse numbers of cells such as "1e4,1e5"; return them sorted and without duplicates."""
     try:
         sizes = sorted({round(float(size)) for size in text.split(",")})
     except (ValueError, OverflowError):
@@ -41,20 +38,10 @@ def parse_sizes(text: str) -> list[int]:
 
 
 def run_growth(map_path: Path, sizes: Sequence[int], out: Path | None = None) -> dict[str, Any]:
-    """Measure cities of several sizes on this machine.
+    """Measure cities of several sizes, copies of a small one, and write benchmark.json and plots to `out`.
 
-    Args:
-        map_path: OpenStreetMap file of a small city, which is copied to make larger ones.
-        sizes: approximate numbers of cells, ascending.
-        out: directory for benchmark.json (written after each size) and two plots; None to write nothing.
-
-    Returns:
-        "compared" and "assumed", the conditions of the figures; "sizes", the results of `_measure_size`; "ratios" of
-        each size's figures to those of the smallest; and "failed", the size that could not be measured and why. Larger
-        sizes are then skipped.
-
-    Raises:
-        MapError, DataError: the map is not usable, or a size is smaller than the map.
+    The report has the results of `_measure_size` as "sizes", and "ratios" to those of the smallest. After a size that
+    "failed", larger sizes are skipped. DataError if a size is smaller than the map.
     """
     extract = CityExtract.read(map_path)
     cells, questions = _measure_one_copy(map_path)
@@ -98,19 +85,7 @@ def _assumed(map_path: Path, cells: int) -> str:
 
 
 def _measure_size(extract: CityExtract, copies: int, questions: list[BenchmarkQuery], scratch: Path) -> dict[str, Any]:
-    """Measure one size.
-
-    Args:
-        extract: the city to copy.
-        copies: the number of copies.
-        questions: queries about copy 0.
-        scratch: temporary directory for the map and its index.
-
-    Returns:
-        "cells", "copies"; "map" {"seconds", "size_mb"}; "index", from `measure_index`, with "bytes_a_cell" by file;
-        "serve" {"ready_seconds", "memory_mib" when ready and after the queries}; "localize", from `localize_all`;
-        "one_thread", from `measure_parts`; "vector_search", from `measure_searches`.
-    """
+    """Measure one size: the map, the index, the service, its parts on one thread, and vector search."""
     path, index_dir, start = scratch / "city.osm.pbf", scratch / "index", time.perf_counter()
     block = extract.write_tiled(copies, path)
     written = {"seconds": round(time.perf_counter() - start, 2), "size_mb": round(path.stat().st_size / 1e6, 3)}

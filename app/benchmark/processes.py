@@ -21,12 +21,7 @@ START_S = 600.0  # a large index takes long to read
 
 @dataclass(frozen=True, slots=True)
 class Service:
-    """A running service.
-
-    Attributes:
-        client: an HTTP client of the service.
-        pid: its first process.
-    """
+    """A running service: an HTTP client, and its first process."""
 
     client: httpx.Client
     pid: int
@@ -37,15 +32,7 @@ class Service:
 
 
 def measure_index(map_path: Path, out: Path) -> dict[str, float]:
-    """Run `hereabouts index`; return its seconds, the peak memory of all its processes, and the size of the index.
-
-    Args:
-        map_path: map to index.
-        out: directory for the index, which is kept.
-
-    Raises:
-        HereaboutsError: the command failed.
-    """
+    """Run `hereabouts index`; return its seconds, the peak memory of all its processes, and the size of the index."""
     start = time.perf_counter()
     job = subprocess.Popen(
         [*_hereabouts(), "index", "--map", str(map_path), "--out", str(out)], stdout=subprocess.DEVNULL
@@ -88,11 +75,7 @@ def busy_process() -> Iterator[None]:
 
 @contextmanager
 def serving(index_dir: Path) -> Iterator[Service]:
-    """Start a service of an index on a free local port and yield it when it is ready.
-
-    Raises:
-        HereaboutsError: the service does not become ready.
-    """
+    """Start a service of an index on a free local port and yield it when it is ready; HereaboutsError if it is not."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]

@@ -25,13 +25,7 @@ RADII_M: Final = (5, 10, 30)
 
 @dataclass(frozen=True, slots=True)
 class BenchmarkQuery:
-    """A description and its true position.
-
-    Attributes:
-        hints: the sentences.
-        street: name of the street at the position; None if none is near.
-        lat, lon: the position in degrees.
-    """
+    """A description and its true position in degrees, with the name of the street there, if any."""
 
     hints: tuple[str, ...]
     street: str | None
@@ -41,22 +35,15 @@ class BenchmarkQuery:
 
 @dataclass(frozen=True, slots=True)
 class BenchmarkAnswers:
-    """The answers to Q queries.
-
-    Attributes:
-        seconds: the time of each query that was answered.
-        places: [Q] (lat, lon) of the estimates; None without an estimate.
-    """
+    """The seconds of answered queries, and [Q] (lat, lon) of the estimates, None without an estimate."""
 
     seconds: list[float]
     places: list[tuple[float, float] | None]
 
     def figures(self, queries: Sequence[BenchmarkQuery], block: CopyGrid) -> dict[str, Any]:
-        """Summarize latencies and errors.
+        """Return percentiles of latency in ms, the number of unanswered requests, and the accuracy.
 
-        Returns:
-            "p50" and "p99" in milliseconds (None without answers), the number of "unanswered" requests, "accuracy", and
-            "accuracy_in_any_copy", which ignores in which copy the estimate is.
+        "accuracy_in_any_copy" ignores in which copy the estimate is.
         """
         seconds = percentiles(self.seconds) if self.seconds else {"p50": None, "p99": None}
         folded = [place and block.to_first_copy(*place) for place in self.places]
@@ -68,14 +55,7 @@ class BenchmarkAnswers:
 
 
 def draw_queries(source: "Source") -> list[BenchmarkQuery]:
-    """Draw template descriptions of places without replacement and with a fixed seed.
-
-    Args:
-        source: a map or a split of it.
-
-    Returns:
-        As many queries as `localize_all` uses, or fewer if the map has fewer.
-    """
+    """Draw the queries of `localize_all`, template descriptions without replacement, with a fixed seed."""
     from index.answering.place_text import nearest_street  # noqa: PLC0415 - heavy
 
     queries, gazetteer, rng = source.queries(), source.gazetteer(), np.random.default_rng(0)
@@ -95,11 +75,7 @@ def _name(gazetteer: "Gazetteer", number: int) -> str:
 def split_questions(
     questions: Sequence[BenchmarkQuery],
 ) -> tuple[Sequence[BenchmarkQuery], list[Sequence[BenchmarkQuery]]]:
-    """Split queries into those for warm-up and an equal number for each kind of request, without repetition.
-
-    Raises:
-        MapError: there are too few queries.
-    """
+    """Split queries into those for warm-up and an equal number for each kind of request, without repetition."""
     kinds = 1 + len(WITHIN)
     each = (len(questions) - WARM_UP) // kinds
     if each < 1:
@@ -111,15 +87,9 @@ def split_questions(
 def localize_all(client: httpx.Client, questions: Sequence[BenchmarkQuery], block: CopyGrid) -> dict[str, Any]:
     """Send all queries to the service of a tiled city, one after another.
 
-    Args:
-        client: HTTP client of the service.
-        questions: the queries of `draw_queries`.
-        block: the grid of the copies.
-
-    Returns:
-        `BenchmarkAnswers.figures` by kind of request: "anywhere"; "within_..._percent" of the block's area; and
-        "with_street", the queries of "anywhere" plus the name of the street, without latencies because their hints are
-        cached.
+    Return `BenchmarkAnswers.figures` by kind of request: "anywhere"; "within_..._percent" of the block's area; and
+    "with_street", the queries of "anywhere" plus the name of the street, without latencies because their hints are
+    cached.
     """
     warm, (free, *boxed) = split_questions(questions)
     for question in warm:

@@ -24,14 +24,8 @@ SCORE_TOLERANCE = 1e-6  # rounding of float32 scores
 def measure_searches(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -> dict[str, Any]:
     """Measure the search for the candidates of one description on one thread, in median milliseconds.
 
-    Args:
-        localizer: a localizer of an index with FAISS vectors.
-        texts: descriptions as tuples of sentences.
-
-    Returns:
-        "candidates", the number of candidates; "faiss_ms"; "found", the recall of FAISS against exact search; and
-        "milvus": its "kind" (milvus-lite, or the server of HEREABOUTS_MILVUS_URI), "write_seconds" and "ms"; or "not
-        installed"; or why Milvus does not answer.
+    "found" is the recall of FAISS against exact search. "milvus" has its kind (milvus-lite, or the server of
+    HEREABOUTS_MILVUS_URI), "write_seconds" and "ms", or says why Milvus does not answer.
     """
     from models.posterior.posterior import CANDIDATES  # noqa: PLC0415 - heavy
 

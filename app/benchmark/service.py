@@ -12,7 +12,7 @@ import httpx
 import numpy as np
 
 from app.benchmark.processes import busy_process, measure_index, serving, timed_run
-from app.settings import load_settings
+from app.settings import open_index
 
 if TYPE_CHECKING:  # so that the command line starts without torch
     from index.answering.localizer import Localizer
@@ -24,17 +24,11 @@ PARTS = 100  # descriptions for `measure_parts`
 
 
 def run_benchmark(map_path: Path, index_dir: Path) -> dict[str, Any]:
-    """Measure one map and one index on this machine.
+    """Measure one map, which is indexed once more, and the service of one index on this machine.
 
-    Args:
-        map_path: map to index once more, into a directory that is removed again.
-        index_dir: index to serve.
-
-    Returns:
-        Figures by stage: building the index; seconds until `hereabouts serve` is ready and of one run of `hereabouts
-        localize`; warm latencies of `POST /localize` with one client and six hints per description, for new text about
-        places of the map, the same while another process keeps a CPU busy, new text that fits many places, cached text,
-        and `/healthz` as the baseline; and the parts of an answer, from `measure_parts`.
+    The figures are: building the index; the start of `hereabouts serve` and `localize`; warm latencies with one client
+    for new text, the same beside a busy process, new text that fits many places, cached text, and `/healthz` as the
+    baseline; and `measure_parts`.
     """
     with tempfile.TemporaryDirectory() as scratch:
         index = measure_index(map_path, Path(scratch) / "index")
@@ -68,12 +62,7 @@ def run_benchmark(map_path: Path, index_dir: Path) -> dict[str, Any]:
 
 
 def descriptions(localizer: "Localizer", count: int) -> list[tuple[str, ...]]:
-    """Describe the nearest objects of random positions by templates, at most `MAX_HINTS` per description.
-
-    Args:
-        localizer: a localizer of the map.
-        count: the most descriptions; positions without objects are skipped.
-    """
+    """Describe the nearest objects of at most `count` random positions by templates, up to `MAX_HINTS` each."""
     from index.evaluation.localizers import map_of_index  # noqa: PLC0415 - heavy
     from index.evaluation.robustness import nearest_hints  # noqa: PLC0415
     from models.citymap.templates import render_hint  # noqa: PLC0415
@@ -88,15 +77,9 @@ def descriptions(localizer: "Localizer", count: int) -> list[tuple[str, ...]]:
 
 
 def measure_parts(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -> dict[str, float]:
-    """Measure the steps of answering a description, and the bytes per cell.
+    """Measure the steps of answering new descriptions in median milliseconds, and the bytes per cell.
 
-    Args:
-        localizer: the localizer.
-        texts: descriptions that are not in its caches.
-
-    Returns:
-        Median milliseconds of parsing a new description, of its candidates from the vector index and of the posterior,
-        and, as the baseline, of encoding its sentences and of ranking cells by them.
+    Encoding the sentences and ranking cells by them are the baseline.
     """
     from index.answering.vector_localizer import RANKED_CELLS  # noqa: PLC0415 - heavy
     from models.posterior.locate import locate  # noqa: PLC0415 - heavy
@@ -117,14 +100,6 @@ def measure_parts(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -> d
         "surroundings_bytes_a_cell": round(surroundings.num_bytes / cells),
         "vectors_bytes_a_cell": round(4 * localizer.facts.dim + ranker.table.bytes_per_cell),
     }
-
-
-def open_index(index_dir: Path) -> "Localizer":
-    """Open an index with the weights of the settings."""
-    from index.answering.localizer import Localizer  # noqa: PLC0415 - heavy
-
-    settings = load_settings(index_dir=index_dir)
-    return Localizer.open(index_dir, settings.weights_dir, posterior_weights_dir=settings.posterior_weights_dir)
 
 
 def _timed(seconds: list[float], work: Callable[..., Any], *arguments: Any) -> Any:

@@ -18,10 +18,9 @@ aliases = typer.Typer(help="List and change the aliases of an index directory.",
 @aliases.command("list")
 def list_aliases(index_dir: IndexDir = INDEX_DIR) -> None:
     """Print each alias with its version, then the versions without an alias, marked "-"."""
-    from index.build.artifact import read_aliases
+    from index.build.artifact import list_versions, read_aliases
 
-    known = read_aliases(index_dir)
-    versions = _versions(index_dir)
+    known, versions = read_aliases(index_dir), list_versions(index_dir)
     if not known.aliases and not versions:
         raise IndexBroken(f"no index in {index_dir}; give the directory that 'hereabouts index' wrote as --index")
     for alias, version in sorted(known.aliases.items()):
@@ -42,7 +41,7 @@ def set_alias(
 
     if not re.fullmatch(NAME_PATTERN, name):
         raise DataError(f"{name!r} is not a name for an alias; use letters, digits, '.', '_' and '-'")
-    versions = _versions(index_dir)
+    versions = artifact.list_versions(index_dir)
     if version not in versions:
         raise IndexBroken(f"no version {version} in {index_dir}; its versions are {', '.join(versions) or 'none'}")
     try:
@@ -65,13 +64,6 @@ def remove_alias(name: AliasName, index_dir: IndexDir = INDEX_DIR) -> None:
     except OSError as error:
         raise _not_written(index_dir, error) from error
     typer.echo(f"{name} is removed; a running service stops serving it within a second")
-
-
-def _versions(index_dir: Path) -> list[str]:
-    """Return the names of the versions in an index directory, sorted."""
-    from index.build.manifest import MANIFEST
-
-    return sorted(path.parent.name for path in index_dir.glob(f"[!.]*/{MANIFEST}"))
 
 
 def _not_written(index_dir: Path, error: OSError) -> DataError:

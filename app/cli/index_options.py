@@ -13,11 +13,7 @@ if TYPE_CHECKING:
 
 
 def parse_shard(text: str | Shard) -> Shard:
-    """Parse a shard.
-
-    Raises:
-        BadParameter: the text is not a shard.
-    """
+    """Parse "I/N"."""
     try:
         return Shard.parse(str(text))
     except ValueError as error:
@@ -27,11 +23,7 @@ def parse_shard(text: str | Shard) -> Shard:
 def check_shard_options(
     shard: Shard | None, merge: int | None, engine: str | None, address: str | None, keep_current: bool
 ) -> None:
-    """Refuse options that exclude each other.
-
-    Raises:
-        BadParameter: the options exclude each other.
-    """
+    """Refuse options that exclude each other."""
     if shard and (merge or engine):
         raise typer.BadParameter("--shard builds one shard, --merge and --engine build an index: give one of them")
     if shard and keep_current:
@@ -45,11 +37,7 @@ def check_shard_options(
 def run_index_job(
     job: "IndexJob", shard: Shard | None, merge: int | None, engine: str | None, address: str | None, show: "Progress"
 ) -> Path:
-    """Build an index, merge its shards, or build one shard, by options that `check_shard_options` has accepted.
-
-    Returns:
-        The directory of the index version or the shard.
-    """
+    """Build an index, merge its shards, or build one shard; return the directory of the result."""
     if shard:
         return job.make_shard(shard, show)
     if engine:

@@ -190,18 +190,13 @@ def localize(
     picture: Annotated[Path | None, typer.Option(help="PNG file to draw the answer to")] = None,
 ) -> None:
     """Find the position of the speaker of a description."""
-    from app.settings import load_settings
+    from app.settings import open_index
     from index.answering.query import Query
     from models.language.sentences import split_hints
 
     if text != STDIN:
         split_hints(text)  # raises DescriptionError before anything is loaded
-    settings = load_settings(index_dir=index_dir)
-    from index.answering.localizer import Localizer
-
-    localizer = Localizer.open(
-        settings.index_dir, settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
-    )
+    localizer = open_index(index_dir)
     make_query = partial(Query, top_k=top_k, refine=refine)
     if text == STDIN:
         raise typer.Exit(_answer_lines(localizer, make_query))
@@ -217,11 +212,7 @@ def localize(
 
 
 def _answer_lines(localizer: "Localizer", make_query: "Callable[[str], Query]") -> int:
-    """Answer each line of standard input with one line of JSON; an invalid line fails alone.
-
-    Returns:
-        The exit status: 1 if any line failed.
-    """
+    """Answer each line of standard input with one line of JSON; return 1 if any line failed, each alone."""
     from models.language.sentences import split_hints
 
     failed = 0

@@ -17,7 +17,6 @@ from models.errors import DataError
 from models.sources.place_texts import SUFFIXES as PLACE_TEXT_SUFFIXES
 
 if TYPE_CHECKING:
-    from app.settings import Settings
     from index.evaluation.report import Table as Rows
 
 SHIPPED_MAP = Path(models.__file__).parent / "maps" / "helsinki.osm.pbf"
@@ -62,10 +61,10 @@ def evaluate(
         _print_report(rescore_report(Path(str(rescore))))
         return
     radii = _radii(grow)
-    settings = load_settings(index_dir=index_dir)
     if data.name.endswith(PLACE_TEXT_SUFFIXES):
-        _evaluate_place_texts(data, settings, report)
+        _evaluate_place_texts(data, index_dir, report)
         return
+    settings = load_settings(index_dir=index_dir)
     if data.suffix == ".json":
         evaluation = read_evaluation(data, settings, split, radii)
     else:
@@ -81,17 +80,16 @@ def evaluate(
         _print_report(results)
 
 
-def _evaluate_place_texts(data: Path, settings: "Settings", report: Path | None) -> None:
+def _evaluate_place_texts(data: Path, index_dir: Path, report: Path | None) -> None:
     """Evaluate an index on texts with known positions."""
     from app.cli.progress import stage_bars
-    from index.answering.localizer import Localizer
+    from app.settings import open_index
     from index.evaluation.place_texts import evaluate_texts, text_tables
     from models.sources.place_texts import load_place_texts
 
     texts = load_place_texts(data)
-    weights = settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
     with stage_bars() as show:
-        results = evaluate_texts(Localizer.open(settings.index_dir, *weights), texts, report, show)
+        results = evaluate_texts(open_index(index_dir), texts, report, show)
     _print_tables(Console(width=150), *text_tables(results))
 
 
@@ -149,14 +147,11 @@ def questions(
 ) -> None:
     """Measure how much the follow-up questions help simulated users with two hints, who sometimes answer wrongly."""
     from app.cli.progress import stage_bars
-    from app.settings import load_settings
-    from index.answering.localizer import Localizer
+    from app.settings import open_index
     from index.evaluation.questions import evaluate_questions, questions_table
     from models.sources.source import open_source
 
-    settings = load_settings(index_dir=index_dir)
-    weights = settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
-    localizer = Localizer.open(settings.index_dir, *weights)
+    localizer = open_index(index_dir)
     with stage_bars() as show:
         source = open_source(data, split, show)
         results = evaluate_questions(localizer, source, texts, seed, show, is_plain=plain)
@@ -173,13 +168,10 @@ def descriptions(
 ) -> None:
     """Measure how well random positions are found again from the text that POST /describe gives for them."""
     from app.cli.progress import stage_bars
-    from app.settings import load_settings
-    from index.answering.localizer import Localizer
+    from app.settings import open_index
     from index.evaluation.descriptions import descriptions_table, evaluate_descriptions
 
-    settings = load_settings(index_dir=index_dir)
-    weights = settings.weights_dir, settings.fine_weights_dir, settings.posterior_weights_dir
-    localizer = Localizer.open(settings.index_dir, *weights)
+    localizer = open_index(index_dir)
     with stage_bars() as show:
         results = evaluate_descriptions(localizer, positions, seed, show)
     console = Console(width=120)

@@ -2,7 +2,6 @@
 # ruff: noqa: PLC0415
 
 from contextlib import contextmanager
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -55,7 +54,6 @@ def train(
 ) -> None:
     """Train a model on the train split of a data set; for an OpenStreetMap file this is its west."""
     from models.errors import TrainingError
-    from models.paper.fine.checkpoint import FINE_METHODS
     from models.training.settings import load_settings
 
     if resume and run_dir is None:
@@ -68,22 +66,14 @@ def train(
     options = {"training.seed": seed, "training.steps": steps, "model.text_encoder": text_encoder}
     overrides = [f"{name}={value}" for name, value in options.items() if value is not None]
     model, config = load_settings(method, [*(change or []), *overrides])
-    arguments = data, (split, val_split), method, model, config, out, run_dir, resume
-
     with _training_bar() as show:
-        train_it: Callable[..., str] = _train_fine if method in FINE_METHODS else _train_retriever
-        if method == "posterior":
-            train_it = partial(_train_posterior, reader)
-        elif method == "points":
-            train_it = _train_points
-        figures = train_it(*arguments, show)
+        figures = _train_model(reader, data, (split, val_split), method, model, config, out, run_dir, resume, show)
         typer.echo(f"weights are in {out}; validation {figures}")
 
 
 def _train_places(
     method: str, data: list[Path], texts: list[str], reader: Path | None, out: Path, steps: int | None, seed: int | None
 ) -> None:
-    """Train the cue readers and fit the place kernels."""
     from app.cli.progress import stage_bars
     from models.errors import TrainingError
     from models.training.posterior.fit_kernels import STEPS
@@ -111,59 +101,35 @@ def _loader(data: list[Path], splits: tuple[str, str], config: Any) -> "Callable
     return lambda encoder, rng: [load_training_data(path, splits, encoder, config, rng) for path in data]
 
 
-def _train_retriever(
-    data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *paths: Any
+def _train_model(
+    reader: Path | None, data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *run: Any
 ) -> str:
-    """Train a retriever and format its figures."""
+    """Train any other model and format its validation figures; `run` is the tail of each trainer's arguments."""
     from models.paper.checkpoint import METHODS
-    from models.training.fit_retriever import train_retriever
+    from models.paper.fine.checkpoint import FINE_METHODS
 
-    out, *rest = paths
-    recall = train_retriever(
-        _loader(data, splits, config),
-        out, METHODS[method], model, config, *rest,
-    )  # fmt: skip
-    return f"recall@1/3/5: {recall[1]:.3f} {recall[3]:.3f} {recall[5]:.3f}"
+    figures: dict[str, float]
+    if method == "posterior":
+        from models.training.posterior.fit_posterior import refit_posterior, train_posterior
 
+        if reader is None:
+            figures = train_posterior(data, splits, run[0], model, config, *run[1:])
+        else:
+            figures = refit_posterior(reader, data, splits, run[0], config)
+    elif method == "points":
+        from models.training.fit_points import train_points
+        from models.training.training_data import load_training_cells
 
-def _train_fine(data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *paths: Any) -> str:
-    """Train a fine stage and format its figures."""
-    from models.training.fit_fine import train_fine
+        figures = train_points([load_training_cells(path, splits) for path in data], run[0], config, *run[1:])
+    elif method in FINE_METHODS:
+        from models.training.fit_fine import train_fine
 
-    out, *rest = paths
-    figures = train_fine(
-        _loader(data, splits, config),
-        out, method, model, config, *rest,
-    )  # fmt: skip
-    return ", ".join(f"{name} {value:.3f}" for name, value in figures.items())
-
-
-def _train_points(data: list[Path], splits: tuple[str, str], method: str, model: Any, config: Any, *paths: Any) -> str:
-    """Train the point encoder and format its figures."""
-    from models.training.fit_points import train_points
-    from models.training.training_data import load_training_cells
-
-    figures = train_points([load_training_cells(path, splits) for path in data], paths[0], config, *paths[1:])
-    return ", ".join(f"{name} {value:.3f}" for name, value in figures.items())
-
-
-def _train_posterior(
-    reader: Path | None,
-    data: list[Path],
-    splits: tuple[str, str],
-    method: str,
-    model: Any,
-    config: Any,
-    out: Path,
-    *rest: Any,
-) -> str:
-    """Train the posterior, or fit only its likelihood, and format its figures."""
-    from models.training.posterior.fit_posterior import refit_posterior, train_posterior
-
-    if reader is None:
-        figures = train_posterior(data, splits, out, model, config, *rest)
+        figures = train_fine(_loader(data, splits, config), run[0], method, model, config, *run[1:])
     else:
-        figures = refit_posterior(reader, data, splits, out, config)
+        from models.training.fit_retriever import train_retriever
+
+        recall = train_retriever(_loader(data, splits, config), run[0], METHODS[method], model, config, *run[1:])
+        return f"recall@1/3/5: {recall[1]:.3f} {recall[3]:.3f} {recall[5]:.3f}"
     return ", ".join(f"{name} {value:.3f}" for name, value in figures.items())
 
 

@@ -32,17 +32,7 @@ WEIGHTS_DIRS = ("weights_dir", "fine_weights_dir", "posterior_weights_dir")  # o
 
 
 class Evaluation(BaseModel):
-    """An evaluation of a data set, or of given queries on an index.
-
-    Attributes:
-        weights_dir: weights of the retriever; None for the shipped ones.
-        grow_m: radii of a growing gallery.
-        refine: how positions are found.
-        fine_weights_dir, posterior_weights_dir: weights of the fine stage and of the posterior, like weights_dir.
-        data, split: the data set, as in `models.sources.source.open_sources`; None for given queries.
-        index_dir: an index directory or a version of it, for given queries.
-        descriptions, positions_m: the given queries: texts and true positions, map frame.
-    """
+    """An evaluation of a data set, or of given queries on an index; None stands for the shipped weights."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -58,15 +48,7 @@ class Evaluation(BaseModel):
     positions_m: list[tuple[float, float]] = []
 
     def run(self, report_dir: Path | None, progress: Progress) -> dict[str, Any]:
-        """Run the evaluation and return the report of `index.evaluation.evaluation.evaluate`.
-
-        Args:
-            report_dir: directory for the report; None to write nothing.
-            progress: called as the work goes on.
-
-        Raises:
-            HereaboutsError: the data, the index or the model cannot be used.
-        """
+        """Run the evaluation, and return and write the report of `index.evaluation.evaluation.evaluate`."""
         from index.answering.localizer import Localizer  # noqa: PLC0415
         from index.evaluation.evaluation import evaluate  # noqa: PLC0415  # brings torch, which takes seconds
         from index.evaluation.localizers import map_of_index, with_raw_texts  # noqa: PLC0415
@@ -77,8 +59,7 @@ class Evaluation(BaseModel):
             return evaluate(source.data, queries, self._localizer(source, progress), report_dir, self.grow_m, progress)
         assert self.index_dir is not None
         progress("open index", 0, 0)
-        dirs = self.weights_dir, self.fine_weights_dir, self.posterior_weights_dir
-        localizer = Localizer.open(self.index_dir, *dirs)
+        localizer = Localizer.open(self.index_dir, *(getattr(self, name) for name in WEIGHTS_DIRS))
         data = map_of_index(localizer)
         sentences = [(description,) for description in self.descriptions]
         queries = Queries.from_text(sentences, np.array(self.positions_m), data.cells)
@@ -99,7 +80,6 @@ class Evaluation(BaseModel):
         return self._posterior(source, progress) if self.refine == "posterior" else self._vectors(source, progress)
 
     def _posterior(self, source: "Source", progress: Progress) -> "PosteriorLocalizer":
-        """Build the posterior localizer of a data set."""
         from index.evaluation.localizers import posterior_of_map  # noqa: PLC0415
         from models.paper.checkpoint import load_retriever  # noqa: PLC0415
         from models.posterior.model import load_posterior  # noqa: PLC0415
@@ -130,15 +110,7 @@ class Evaluation(BaseModel):
         return Ranker.from_cells(retriever, source.data.cells, source.data.gallery.labels)
 
     def run_robustness(self, report_dir: Path | None, progress: Progress) -> dict[str, Any]:
-        """Compare retriever and posterior in every trial of `index.evaluation.robustness`.
-
-        Args:
-            report_dir: directory for robustness.json and robustness.md; None to write nothing.
-            progress: called as the work goes on.
-
-        Raises:
-            HereaboutsError: as `run`, or the queries are texts without known hints.
-        """
+        """Compare retriever and posterior in every trial of `index.evaluation.robustness`, and write both reports."""
         from index.evaluation.report import as_markdown  # noqa: PLC0415  # brings torch, which takes seconds
         from index.evaluation.robustness import robustness, robustness_tables, sample_queries  # noqa: PLC0415
 
@@ -163,24 +135,13 @@ class Evaluation(BaseModel):
 
     def hide_paths(self, message: str) -> str:
         """Return a message with paths shortened to their last component."""
-        weights = self.weights_dir, self.fine_weights_dir, self.posterior_weights_dir
-        for path in (self.data, self.index_dir, *weights):
+        for path in (self.data, self.index_dir, *(getattr(self, name) for name in WEIGHTS_DIRS)):
             message = message.replace(str(path), path.name) if path else message
         return message
 
 
 def build_evaluation(body: EvaluateRequest, settings: Settings, index_dir: Path, frame: Frame) -> Evaluation:
-    """Build an evaluation from a request.
-
-    Args:
-        body: a validated request.
-        settings: gives the weights and the directory of data sets.
-        index_dir: the index for given queries.
-        frame: frame of the index's map.
-
-    Raises:
-        Problem: there is no such data set, or a position cannot be projected; the problem names the field.
-    """
+    """Build an evaluation from a request; 422 for an unknown data set or a position too far from the map."""
     weights = {name: getattr(settings, name) for name in WEIGHTS_DIRS}
     common: dict[str, Any] = {name: path and path.absolute() for name, path in weights.items()}
     common |= {"grow_m": body.grow or [], "refine": body.refine}
@@ -196,18 +157,7 @@ def build_evaluation(body: EvaluateRequest, settings: Settings, index_dir: Path,
 
 
 def read_evaluation(path: Path, settings: Settings, split: str | None, grow_m: list[float]) -> Evaluation:
-    """Read an evaluation on settings.index_dir from a file with the body of a `POST /evaluate`.
-
-    Args:
-        path: the file.
-        settings: gives the weights and the index.
-        split: must be None, as such a file has no splits.
-        grow_m: radii that replace those in the file, if any.
-
-    Raises:
-        DataError: the file cannot be read or is not a valid body; the message names the field.
-        IndexUnusable: there is no index.
-    """
+    """Read an evaluation from a file with the body of a `POST /evaluate`; `grow_m` replaces its radii."""
     if split is not None:
         raise DataError(f"{path}: a file of queries has no splits; leave out --split")
     try:
@@ -238,11 +188,7 @@ def list_data_sets(data_dir: Path | None) -> list[Path]:
 
 
 def find_data(data_dir: Path | None, name: str) -> Path:
-    """Return a data set by name, with or without its suffix. The name is only compared, never used as a path.
-
-    Raises:
-        Problem: there is no data set of that name.
-    """
+    """Return a data set by name, with or without its suffix. The name is only compared, never used as a path."""
     paths = {path.name: path for path in list_data_sets(data_dir)}
     for known in (name, *(name + suffix for suffix in MAP_SUFFIXES)):
         if known in paths:

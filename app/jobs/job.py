@@ -45,13 +45,7 @@ class JobState(BaseModel):
 
 @dataclass(eq=False, slots=True)
 class EvaluationJob:
-    """An evaluation job; it is changed only on the event loop.
-
-    Attributes:
-        directory: the files that the worker reads and writes; removed with the job.
-        changed: set and replaced at every change.
-        requested_end: the final status of a job that was asked to stop, whether or not its worker still runs.
-    """
+    """An evaluation job; it is changed only on the event loop."""
 
     directory: Path
     id: str = field(default_factory=lambda: uuid.uuid4().hex)

@@ -34,11 +34,8 @@ log = structlog.get_logger()
 class EvaluationJobs:
     """Runs evaluations in the order of their submission.
 
-    Args:
-        directory: keeps jobs over restarts: waiting jobs start again, a running job becomes interrupted, and reports
-            stay. None to keep nothing.
-        command: command of the worker; the job's directory is appended.
-        max_waiting: the most jobs that may wait.
+    `directory` keeps jobs over restarts: waiting jobs start again, a running job becomes interrupted, and reports stay.
+    The job's directory is appended to the `command` of the worker.
     """
 
     def __init__(
@@ -71,11 +68,7 @@ class EvaluationJobs:
         self._store.close()
 
     async def submit(self, evaluation: Evaluation) -> EvaluationJob:
-        """Queue an evaluation.
-
-        Raises:
-            Problem: the service is shutting down, too many jobs wait, or the job cannot be stored.
-        """
+        """Queue an evaluation; 503 while shutting down, 429 if too many wait, 409 if the job cannot be stored."""
         if self._runner is None:
             raise Problem(Code.DRAINING)
         if sum(job.status == "queued" for job in self._jobs.values()) >= self._max_waiting:
@@ -97,22 +90,14 @@ class EvaluationJobs:
         return job
 
     def get(self, job_id: str) -> EvaluationJob:
-        """Return a job.
-
-        Raises:
-            Problem: there is no such job, or it was deleted.
-        """
+        """Return a job; 404 if there is none."""
         try:
             return self._jobs[job_id]
         except KeyError:
             raise Problem(Code.JOB_NOT_FOUND) from None
 
     async def delete(self, job_id: str) -> EvaluationJob:
-        """Cancel a job and wait for its worker to exit, or delete a finished job.
-
-        Raises:
-            Problem: there is no such job.
-        """
+        """Cancel a job and wait for its worker to exit, or delete a finished job; 404 if there is none."""
         job = self.get(job_id)
         if job.is_finished:
             self._forget(job)
@@ -148,7 +133,6 @@ class EvaluationJobs:
                 self._finish(job, "failed", error=_fault())
 
     async def _work(self, job: EvaluationJob) -> None:
-        """Run the worker of a job until it exits."""
         with (job.directory / STDERR_FILE).open("wb") as errors:
             job.process = process = await asyncio.create_subprocess_exec(
                 *self._command,
@@ -175,11 +159,7 @@ class EvaluationJobs:
             self._finish(job, "failed", error=_fault())
 
     async def _follow(self, job: EvaluationJob, process: Process) -> str | None:
-        """Read the lines of a worker until it exits.
-
-        Returns:
-            The worker's error message about the input, if any.
-        """
+        """Read the lines of a worker until it exits; return its error message about the input, if any."""
         failure = None
         assert process.stdout is not None
         try:

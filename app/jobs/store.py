@@ -23,11 +23,7 @@ log = structlog.get_logger()
 
 
 class JobStore:
-    """The stored jobs of one service.
-
-    Args:
-        directory: kept over restarts; None for a temporary directory.
-    """
+    """The stored jobs of one service, in a directory kept over restarts, or in a temporary one."""
 
     def __init__(self, directory: Path | None) -> None:
         self._directory = directory
@@ -74,11 +70,7 @@ class JobStore:
             replace_file(job.directory / STATE, job.state().model_dump_json().encode())
 
     def remove(self, job: EvaluationJob) -> None:
-        """Remove a job and its files.
-
-        Raises:
-            OSError: it cannot be removed.
-        """
+        """Remove a job and its files; OSError if it cannot be removed."""
         (job.directory / STATE).unlink(missing_ok=True)  # first, so that a partly removed job is not loaded
         shutil.rmtree(job.directory, ignore_errors=True)
 

@@ -48,11 +48,7 @@ class ProgressWriter:
 
 
 def main(job_dir: Path) -> int:
-    """Run the evaluation of a job's directory.
-
-    Returns:
-        The exit status.
-    """
+    """Run the evaluation of a job's directory and return the exit status."""
     threading.Thread(target=_exit_with_service, daemon=True).start()
     os.nice(NICENESS)
     set_thread_env()

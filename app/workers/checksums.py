@@ -25,13 +25,7 @@ MAX_SHOWN_STDERR_BYTES: Final = 1000  # the end of a crashed process's stderr
 async def check_version(index_dir: Path, version: str) -> None:
     """Compare all files of a version with its manifest, in a process that ends with this call.
 
-    Args:
-        index_dir: an index directory or the version itself.
-        version: name of the version.
-
-    Raises:
-        IndexBroken: a file is corrupt; the message gives its path below the index directory.
-        HereaboutsError: the process was killed or crashed.
+    Raise IndexBroken with the path of a corrupt file, or HereaboutsError if the process was killed or crashed.
     """
     directory = index_dir if (index_dir / MANIFEST).is_file() else index_dir / version
     process = await asyncio.create_subprocess_exec(

@@ -13,11 +13,7 @@ FORK: Final = "fork"
 
 
 class WorkerFault(Exception):
-    """An internal error in a worker, with its traceback.
-
-    Attributes:
-        redacted_traceback: the traceback without messages, which may quote a description.
-    """
+    """An internal error in a worker; its redacted traceback has no messages, which may quote a description."""
 
     def __init__(self, message: str, redacted_traceback: str = "") -> None:
         super().__init__(message)
@@ -34,11 +30,7 @@ class LocalizerSpec:
     posterior_weights_dir: Path | None = None
 
     def open(self) -> "Localizer":
-        """Open and warm up the localizer. `app.workers.checksums` verifies its files later.
-
-        Raises:
-            HereaboutsError: as `Localizer.open`.
-        """
+        """Open and warm up the localizer. `app.workers.checksums` verifies its files later."""
         from index.answering.localizer import Localizer  # noqa: PLC0415  # imports torch, which takes seconds
 
         dirs = self.weights_dir, self.fine_weights_dir, self.posterior_weights_dir

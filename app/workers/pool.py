@@ -20,15 +20,7 @@ EXIT_TIMEOUT_S: Final = 5.0  # for the process to exit after its connection clos
 
 
 class WorkerPool:
-    """A process that has opened an index and forks workers.
-
-    Args:
-        spec: the index and weights to open.
-        command: command of the process.
-
-    Raises:
-        HereaboutsError: the index or the weights cannot be opened.
-    """
+    """A process that has opened an index and forks workers; HereaboutsError if it cannot be opened."""
 
     def __init__(self, spec: LocalizerSpec, command: Sequence[str] = PROCESS) -> None:
         self._spec, self._command = spec, command
@@ -60,9 +52,8 @@ class WorkerPool:
     def fork(self) -> tuple[int, Connection, Connection]:
         """Fork a worker; return its process id, its connection for queries and its connection for other calls.
 
-        Raises:
-            EOFError: the pool is closed.
-            HereaboutsError: the process had died, and the index cannot be opened again.
+        Raise EOFError if the pool is closed, HereaboutsError if the process had died and the index cannot be opened
+        again.
         """
         with self._lock:
             if self._closed:

@@ -28,12 +28,7 @@ SIGNALS: Final = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)  # left to the s
 
 
 def main(control: Connection, preloaded: Sequence[str] = ()) -> None:
-    """Open the index of the first message, answer with (facts, frame) or an error, then fork workers on request.
-
-    Args:
-        control: connection to the service.
-        preloaded: modules to import before the first message.
-    """
+    """Open the index of the first message, answer with (facts, frame) or an error, then fork workers on request."""
     for number in SIGNALS:
         signal.signal(number, signal.SIG_IGN)
     try:
@@ -66,7 +61,6 @@ def main(control: Connection, preloaded: Sequence[str] = ()) -> None:
 
 
 def _work(localizer: "Localizer", queries: Connection, reads: Connection) -> None:
-    """Answer until the service closes the connection for queries."""
     Thread(target=_answer, args=(localizer, reads), daemon=True).start()
     queries.send(os.getpid())
     _answer(localizer, queries)

@@ -20,11 +20,7 @@ log = structlog.get_logger()
 
 
 class RemoteLocalizer:
-    """A `LocalizerLike` that calls a worker process; its methods are documented there.
-
-    Args:
-        pool: forks the worker and replaces it if it dies.
-    """
+    """A `LocalizerLike` that calls a worker process of a pool, which replaces it if it dies."""
 
     def __init__(self, pool: WorkerPool) -> None:
         self._pool = pool
@@ -110,10 +106,6 @@ class RemoteLocalizer:
 
 
 def open_workers(spec: LocalizerSpec, count: int) -> list[RemoteLocalizer]:
-    """Open an index in `count` workers.
-
-    Raises:
-        HereaboutsError: the index cannot be opened.
-    """
+    """Open an index in `count` workers; HereaboutsError if it cannot be opened."""
     pool = WorkerPool(spec)
     return [RemoteLocalizer(pool) for _ in range(count)]

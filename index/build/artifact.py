@@ -140,6 +140,11 @@ def read_aliases(root: Path) -> Aliases:
         raise IndexBroken(f"{root / ALIASES_FILE} is broken or of another version of hereabouts; {advice}") from error
 
 
+def list_versions(root: Path) -> list[str]:
+    """Return the names of the versions in an index directory, sorted."""
+    return sorted(path.parent.name for path in root.glob(f"[!.]*/{MANIFEST}"))
+
+
 def find_version(path: Path, alias: str = DEFAULT_ALIAS) -> tuple[Path, Manifest]:
     """Find an index version and check sizes only; the service checks the sums once it is ready.
 

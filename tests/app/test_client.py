@@ -22,7 +22,7 @@ def url(in_a_thread):
 
 
 def both(url, ask, **options):
-    """What the two kinds of client answer, or raise."""
+    """Return the answers, or errors, of both kinds of client."""
 
     async def ask_async():
         async with AsyncClient(url, "a-read-key", **options) as client:

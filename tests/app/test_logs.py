@@ -1,4 +1,4 @@
-"""What is logged, as the service logs it: a JSON object a line, and nothing of what people say unless it is wanted."""
+"""The log: one JSON object per line, without people's texts unless the settings ask for them."""
 
 import json
 import logging

@@ -6,8 +6,7 @@ from pydantic import BaseModel, Field
 from app.http.dependencies import AllIndexes, SettingsNow
 from app.http.errors import Code, Problem
 from app.http.openapi import problems
-from index.build.artifact import read_aliases
-from index.build.manifest import MANIFEST
+from index.build.artifact import list_versions, read_aliases
 from models.errors import IndexBroken
 
 router = APIRouter(tags=["indexes"])
@@ -36,7 +35,6 @@ def list_indexes(indexes: AllIndexes, settings: SettingsNow) -> IndexesResponse:
     except IndexBroken:
         raise Problem(Code.INDEX_BROKEN) from None
     served = indexes.versions()
-    directories = {path.parent.name for path in settings.index_dir.glob(f"[!.]*/{MANIFEST}")}
     return IndexesResponse(
         aliases=served,
         versions=[
@@ -45,6 +43,6 @@ def list_indexes(indexes: AllIndexes, settings: SettingsNow) -> IndexesResponse:
                 registered=version in registered,
                 aliases=sorted(alias for alias, served_version in served.items() if served_version == version),
             )
-            for version in sorted(directories | set(registered))
+            for version in sorted({*list_versions(settings.index_dir), *registered})
         ],
     )

@@ -1,4 +1,4 @@
-"""What a tiled city is asked, and how its answers are scored."""
+"""Queries to a tiled city, and the scores of its answers."""
 
 import json
 

@@ -16,7 +16,7 @@ OPTIONS = ("index", "--map", "a.osm", "--out", "o")
 
 @pytest.fixture(autouse=True)
 def calls(monkeypatch):
-    """What is asked for; nothing is done."""
+    """The requested calls; nothing is done."""
     for name in THREAD_VARIABLES:
         monkeypatch.setenv(name, "1")
     made = []

@@ -46,7 +46,7 @@ GOOD_AFTER = {  # where the operation's own good request is not answered alike e
 
 
 class Bad(NamedTuple):
-    """What is sent to an operation in place of what it takes, and the code that it is refused with."""
+    """A bad input to an operation, and the code of the refusal."""
 
     operation: str
     about: str
@@ -143,7 +143,7 @@ def api(fake, until, versions_dir):
 
 
 def lasting(answer):
-    """What two answers to one request have in common."""
+    """Return the part that two answers to one request have in common."""
     if isinstance(answer, dict):
         return {name: lasting(value) for name, value in answer.items() if name not in FLEETING}
     return [lasting(value) for value in answer] if isinstance(answer, list) else answer

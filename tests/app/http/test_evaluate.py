@@ -1,4 +1,4 @@
-"""What POST /evaluate takes and refuses; nothing is run."""
+"""Requests that POST /evaluate accepts and refuses; nothing is run."""
 
 import json
 from pathlib import Path
@@ -19,7 +19,7 @@ QUERY = {"description": "I am north of a gray building. A pole is to my west.", 
 
 @pytest.fixture
 def submitted(monkeypatch):
-    """What reached the jobs, which run nothing."""
+    """The evaluations that reached the jobs, which run nothing."""
     evaluations = []
 
     async def submit(self, evaluation):

@@ -194,7 +194,7 @@ def test_aliases_that_cannot_be_read_change_nothing_until_they_can(error):
 
 
 def refusal(indexes, alias="default"):
-    """Why an index answers nothing; None if it does."""
+    """Return why an index does not answer; None if it does."""
     try:
         indexes.queue(alias).check_accepting()
     except Problem as problem:

@@ -101,7 +101,7 @@ def test_without_an_address_the_command_says_what_to_set(monkeypatch, osm_file, 
 def test_where_milvus_is_down_the_service_starts_and_what_needs_no_vectors_is_answered(
     monkeypatch, index_dir, tmp_path, weights_dir, until, problem
 ):
-    """Of a version whose manifest says that its vectors are in a Milvus; there is none at that address."""
+    """The manifest names a Milvus server, and there is none at that address."""
     monkeypatch.setenv(URI, "http://127.0.0.1:1")
     root = tmp_path / "index"
     shutil.copytree(index_dir, root)

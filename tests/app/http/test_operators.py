@@ -1,4 +1,4 @@
-"""What operators do: list the versions of an index, move the names that serve them, and read counts."""
+"""Work of operators: list the versions of an index, move its aliases, and read counts."""
 
 import shutil
 import threading

@@ -1,4 +1,4 @@
-"""What test_workers.py has its workers open: no model, an answer that says who gave it."""
+"""A localizer without a model for test_workers.py; its answers name the worker."""
 
 import os
 import signal

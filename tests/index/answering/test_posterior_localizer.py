@@ -61,7 +61,7 @@ def answer(posterior):
 
 @pytest.fixture(scope="module")
 def surest(posterior, data_and_queries):
-    """Of some queries, that whose first candidate is the likeliest: the town repeats itself."""
+    """Return the query whose first candidate is the most probable, because the town repeats itself."""
     results = posterior.find([Query(" ".join(hints)) for hints in data_and_queries[1].sentences[:30]])
     return int(np.argmax([finding.located.probability[0] for finding in results]))
 

@@ -28,7 +28,7 @@ LEVELS = ("global", "instance", "relation")
 
 @pytest.fixture
 def job(deep_parts, deep_file, rich_dir, tmp_path):
-    """What is left to do where the parts of two shards are there, and no index."""
+    """A job whose two shards are made, but not merged."""
     shutil.copytree(deep_parts, tmp_path / "out")
     return IndexJob(deep_file, tmp_path / "out", rich_dir, levels=True)
 

@@ -1,4 +1,4 @@
-"""What every store of vectors has to do, against NumPy: FAISS, Milvus Lite and a Milvus server."""
+"""The contract of vector stores, compared with NumPy: FAISS, Milvus Lite and a Milvus server."""
 
 from contextlib import ExitStack
 from importlib.util import find_spec
@@ -90,7 +90,7 @@ def store(backend, vectors, positions_m):
 
 
 def assert_best(result, exact, k):
-    """What was found are the k best of exact scores [Q, N]; those closer than the tolerance may change places."""
+    """Check that results are the k best of exact scores [Q, N]; those within the tolerance may change places."""
     scores, rows = result
     assert scores.shape == rows.shape == (len(exact), k)
     assert (scores.dtype, rows.dtype) == (np.float32, np.int64)

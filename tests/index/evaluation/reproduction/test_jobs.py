@@ -1,4 +1,4 @@
-"""What a job of `reproduce` measures and draws, on an untrained model."""
+"""The measurements and pictures of a job of `reproduce`, on an untrained model."""
 
 import pytest
 import torch
