@@ -74,7 +74,6 @@ def _draw(axes: Any, sizes: Sequence[Size], lines: Lines, unit: str) -> None:
 
 
 def _value(size: Any, keys: Sequence[str]) -> Any:
-    """Return the value under nested keys; None if there is none."""
     for key in keys:
         size = size.get(key) if isinstance(size, dict) else None
     return size

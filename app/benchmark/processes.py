@@ -124,7 +124,6 @@ def _memory_mib(pid: int) -> int:
 
 
 def _tree(pid: int) -> Iterator[int]:
-    """Yield a process and its descendants (Linux)."""
     yield pid
     for file in Path(f"/proc/{pid}/task").glob("*/children"):  # any thread may have forked
         try:

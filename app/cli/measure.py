@@ -81,7 +81,6 @@ def evaluate(
 
 
 def _evaluate_place_texts(data: Path, index_dir: Path, report: Path | None) -> None:
-    """Evaluate an index on texts with known positions."""
     from app.cli.progress import stage_bars
     from app.settings import open_index
     from index.evaluation.place_texts import evaluate_texts, text_tables

@@ -72,7 +72,6 @@ def reproduce(
 
 
 def _override(scale: "TrainingScale", config: Path | None, steps: int | None, device: str | None) -> "TrainingScale":
-    """Return a scale with the settings of a configuration file and then of the options."""
     from_file = _read_config(config) if config else {}
     length = (f"training.steps={steps}", f"training.validate_every={max(1, steps // 20)}") if steps else ()
     device_setting = (f"training.device={device}",) if device else ()
@@ -101,7 +100,6 @@ def _check_runs(scale: "TrainingScale", runs: "Sequence[TrainingRun]", config: P
 
 
 def _read_config(config: Path) -> dict[str, tuple[str, ...]]:
-    """Return the settings of each part of a configuration file in the form of `load_settings`."""
     try:
         tables: dict[str, Any] = tomllib.loads(config.read_text())
     except (OSError, ValueError) as error:
@@ -135,7 +133,6 @@ def _parse_seeds(text: str) -> list[int]:
 
 
 def _towns(scale: str, out: Path, show: Callable[[str, int, int], None]) -> Path:
-    """Return synthetic towns in the published layout; generate them if they do not exist."""
     from models.sources.kitti360.job import prepare_data
     from models.sources.synthetic.towns import write_towns
 

@@ -95,7 +95,6 @@ def _train_places(
 
 
 def _loader(data: list[Path], splits: tuple[str, str], config: Any) -> "Callable[..., Any]":
-    """Return a function that loads the training data for a text encoder and a random generator."""
     from models.training.training_data import load_training_data
 
     return lambda encoder, rng: [load_training_data(path, splits, encoder, config, rng) for path in data]
@@ -135,7 +134,6 @@ def _train_model(
 
 @contextmanager
 def _training_bar() -> "Iterator[Callable[[Progress], None]]":
-    """Show a progress bar with the loss, the last validation figures and the speed."""
     from rich import progress as rich_progress
 
     columns = (

@@ -45,7 +45,7 @@ class StrictBody:
         self._large = LargeBodies(MAX_LARGE_BODIES * max(max_bytes, *self.larger.values(), LARGE_BODY_BYTES))
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Serve one request with its body checked."""
+        """Serve one request."""
         if scope["type"] != "http" or scope["method"] not in {"POST", "PUT", "PATCH"}:
             await self.app(scope, receive, send)
             return

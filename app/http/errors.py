@@ -240,7 +240,6 @@ async def _on_http_exception(request: Request, error: Exception) -> Response:
 
 
 def _methods(request: Request) -> set[str]:
-    """Return the methods that the routes of a path support."""
     methods: set[str] = set()
     for route in (*request.app.routes, *request.app.state.routes):
         if isinstance(route, Route) and route.matches(request.scope)[0] is not Match.NONE:

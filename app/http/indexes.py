@@ -23,8 +23,6 @@ log = structlog.get_logger()
 
 @dataclass(eq=False, slots=True)
 class _ServedIndex:
-    """A queue and the number of requests that use it."""
-
     queue: InferenceQueue
     version: str | None  # the one its alias named when it was opened; None if unknown
     checking: asyncio.Task[None] | None = None  # verifies its files
@@ -203,7 +201,6 @@ class Indexes:
             log.info("index verified", alias=alias, index_version=version)
 
     async def _read_versions(self) -> dict[str, str] | None:
-        """Return the version of each alias; None if the aliases cannot be read."""
         try:
             return dict(await asyncio.to_thread(self._read_aliases))
         except (IndexUnusable, OSError) as error:

@@ -57,7 +57,7 @@ class KeyCheck:
         self._open_routes = frozenset(open_routes) | DOCS
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Serve one request if it is allowed."""
+        """Serve one request."""
         if scope["type"] != "lifespan" and not self._is_open(scope):
             try:
                 self._check(scope)

@@ -36,7 +36,7 @@ class AccessLog:
         self._log_descriptions = log_descriptions
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Serve and log one request."""
+        """Serve one request."""
         if scope["type"] != "http":
             await self.app(scope, receive, send)
             return

@@ -197,7 +197,6 @@ def find_data(data_dir: Path | None, name: str) -> Path:
 
 
 def _positions_m(queries: Sequence[EvaluateQuery], frame: Frame) -> list[tuple[float, float]]:
-    """Project the (lon, lat) positions of Q queries into the map frame."""
     if not frame.is_georeferenced:
         raise Problem.for_field("crs", "this map has no georeference; send positions in metres with crs map")
     lon, lat = np.array([query.position for query in queries]).T

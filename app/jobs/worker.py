@@ -76,7 +76,6 @@ def _take_stdout() -> TextIO:
 
 
 def _exit_with_service() -> None:
-    """End this process and its children when stdin closes."""
     while os.read(0, 1):
         pass
     if os.getpgrp() == os.getpid():

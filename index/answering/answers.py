@@ -176,23 +176,7 @@ class Question:
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """The answer to one query.
-
-    Attributes:
-        status: "ok"; "ambiguous" if text and replies fit several places; "no_match" if `within` contains no cell, or if
-            nothing in the text is on the map and no reply helps.
-        model: the model behind the answer.
-        estimate: None only with "no_match".
-        candidates: best first.
-        other_probability: probability of all cells that are not listed.
-        warnings: sentences for the caller.
-        timings_ms: "encode", "search", "estimate"; shared work of a batch counts for each of its queries.
-        evidence: one entry per hint; only with the posterior.
-        heat_map: if requested; only with the posterior.
-        question: the follow-up question, if one would narrow the answer; only with the posterior. Given with
-            "ambiguous"; with "no_match" for English texts on a map with names; with "ok" after a reply, until half of
-            the probability is within 10 m.
-    """
+    """The answer to one query. `evidence`, `heat_map` and `question` are given by the posterior only."""
 
     status: Status
     model: ModelName
@@ -276,25 +260,14 @@ class Described:
 
 @dataclass(frozen=True, slots=True)
 class IndexFacts:
-    """Facts about an index.
-
-    Attributes:
-        version: the served version.
-        created: when it was built, ISO 8601.
-        map_name: name of the map.
-        attribution: text that the licence of the map data requires to be shown.
-        model: the model of its vectors.
-        num_cells, num_instances: of the map.
-        dim: dimension of the vectors.
-        scenery_parts: number of files of the drawing of the map.
-    """
+    """Facts about an index."""
 
     version: str
     created: str
     map_name: str
-    attribution: str
-    model: ModelName
+    attribution: str  # the text that the map's licence requires to be shown
+    model: ModelName  # the model of its vectors
     num_cells: int
     num_instances: int
     dim: int
-    scenery_parts: int
+    scenery_parts: int  # files of the drawing of the map

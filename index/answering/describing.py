@@ -61,18 +61,12 @@ LABELS_WITHOUT_ARTICLE: Final = PLURAL_LABELS | {"grass", "terrain", "vegetation
 
 @dataclass(frozen=True, slots=True, eq=False)
 class VisibleObject:
-    """An object that is visible from a position.
+    """An object that is visible from a position."""
 
-    Attributes:
-        instance: its class.
-        name, source_id: None if it has none.
-        way_m: [2] offset from the position to its closest point.
-    """
-
-    instance: str
+    instance: str  # its class
     name: str | None
     source_id: str | None
-    way_m: Floats
+    way_m: Floats  # [2] offset from the position to its closest point
 
     @property
     def metres(self) -> float:
@@ -88,15 +82,7 @@ class VisibleObject:
 
 
 class Describer:
-    """Describes the positions of one map. It only reads, so threads may share it.
-
-    Args:
-        gallery: the cells, with labels and names.
-        palette: the map's colour words.
-        frame: of the map.
-        surroundings: of the gallery.
-        gazetteer: of the map; empty if nothing has a name.
-    """
+    """Describes the positions of one map. It only reads, so threads may share it."""
 
     def __init__(
         self, gallery: Gallery, palette: Palette, frame: Frame, surroundings: NeighbourIndex, gazetteer: Gazetteer
@@ -138,7 +124,6 @@ class Describer:
 
 
 def _mentioned(facts: Sequence[Fact]) -> set[str]:
-    """Return the names and source ids in facts."""
     return {word for fact in facts for word in (fact.name, fact.source_id) if word is not None}
 
 
@@ -173,11 +158,7 @@ def _crossing_streets(gazetteer: Gazetteer, street: int, position: Floats) -> It
 
 
 class NamedFacts:
-    """Facts about named objects, other than streets, that are visible from a street.
-
-    Args:
-        gazetteer: of the map.
-    """
+    """Facts about named objects, other than streets, that are visible from a street."""
 
     def __init__(self, gazetteer: Gazetteer) -> None:
         self._gazetteer, words = gazetteer, gazetteer.objects
@@ -216,13 +197,7 @@ class NamedFacts:
 
 
 class NearFacts:
-    """Facts about the objects around the nodes of a map, by class and colour.
-
-    Args:
-        gallery: the cells.
-        palette: the map's colour words.
-        surroundings: of the gallery.
-    """
+    """Facts about the objects around the nodes of a map, by class and colour."""
 
     def __init__(self, gallery: Gallery, palette: Palette, surroundings: NeighbourIndex) -> None:
         self._gallery, self._words, self._surroundings = gallery, palette.words, surroundings
@@ -234,13 +209,9 @@ class NearFacts:
         self._log_share = np.log(np.maximum(count, 1) / max(1, objects.parts.sum()))
 
     def facts(self, position: Floats, cell: int, mentioned: Set[str], most: int) -> list[Fact]:
-        """Return facts about objects near a position [2].
+        """Return at most `most` facts about objects near a position [2] whose nearest centre is that of `cell`.
 
-        Args:
-            position: metres, map frame.
-            cell: the cell with the nearest centre.
-            mentioned: names and source ids in earlier facts.
-            most: maximum number of facts.
+        `mentioned` are the names and source ids in earlier facts.
         """
         facts: list[Fact] = []
         for hint, is_ground, sight in self._visible_objects(position, cell, mentioned):

@@ -37,10 +37,7 @@ def is_inside(query: Query, points_m: Floats, frame: Frame) -> Mask:
 
 
 def nodes_inside(query: Query, surroundings: NeighbourIndex, centers_m: Floats, frame: Frame) -> Inside | None:
-    """Return the nodes inside `within`, of cells with centres [N, 2]; None without a filter.
-
-    The result is exact: in cells that the border may cross, each node is tested.
-    """
+    """Return the exact nodes inside `within`, of cells with centres [N, 2]; None without a filter."""
     if query.within is None:
         return None
     bounds = _circle_bounds(query, frame) if isinstance(query.within, Circle) else _box_bounds(query, centers_m, frame)

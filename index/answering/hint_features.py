@@ -38,14 +38,7 @@ def save_hint_features(directory: Path, retriever: Retriever, sentences: tuple[s
 
 
 def load_hint_features(directory: Path, retriever: Retriever) -> frozenset[str]:
-    """Load the hints of an index version into the retriever's cache.
-
-    Returns:
-        The sentences of the hints.
-
-    Raises:
-        IndexBroken: the file cannot be read.
-    """
+    """Load the hints of an index version into the retriever's cache, and return their sentences."""
     try:
         with safe_open(directory / FILE, framework="numpy") as file:
             sentences = json.loads(file.metadata()["sentences"])

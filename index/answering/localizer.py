@@ -56,13 +56,6 @@ class Localizer:
     """Answers queries about one map. Only one thread may call `localize`; all else only reads.
 
     The posterior, the fine stage and the levels are loaded by the first query that needs them.
-
-    Args:
-        directory: a checked index version.
-        manifest: its manifest.
-        retriever: the model of its vectors.
-        load_refiner: loads the fine stage of a method.
-        load_model: loads the hint posterior.
     """
 
     def __init__(
@@ -101,18 +94,9 @@ class Localizer:
     ) -> "Localizer":
         """Open an index directory (the version of its alias "default") or one of its versions.
 
-        Args:
-            index_dir: an index directory or a version.
-            weights_dir: the retriever's weights; None for the weights in the package.
-            fine_weights_dir: weights of a fine stage, as `load_refiner`; loaded when first needed.
-            posterior_weights_dir: weights of the hint posterior.
-            with_sums: check the sums of all files first; the service does so in the background.
-
-        Raises:
-            IndexBroken: the index is missing, incomplete or changed.
-            IndexMismatch: another model built it.
-            WeightsError: the model cannot be loaded.
-            StoreUnavailable: the vectors are in Milvus, and HEREABOUTS_MILVUS_URI is not set.
+        None stands for the weights in the package. With `with_sums` the sums of all files are checked first; the
+        service does so in the background. Raise IndexBroken, IndexMismatch if another model built it, WeightsError, or
+        StoreUnavailable.
         """
         directory, manifest = (open_version if with_sums else find_version)(index_dir)
         retriever = load_retriever(weights_dir)
@@ -139,10 +123,7 @@ class Localizer:
     def localize(self, queries: Sequence[Query]) -> list[Answer]:
         """Answer queries, in order; queries with the same `refine` form a batch.
 
-        Raises:
-            WeightsError: a query needs a model that cannot be loaded.
-            IndexBroken: files of the index cannot be read.
-            StoreUnavailable: the vectors are in Milvus, which does not answer.
+        Raise WeightsError, IndexBroken or StoreUnavailable if a model, a file or Milvus cannot be used.
         """
         answers: dict[int, Answer] = {}
         for refine in {query.refine for query in queries}:
@@ -205,7 +186,6 @@ class Localizer:
         )
 
     def _cut_parts(self, cells: Ints) -> PartTable:
-        """Cut the parts of some cells from a map of pieces."""
         surroundings = self._surroundings
         assert isinstance(surroundings, PieceNeighbourIndex)
         return surroundings.cut(self.gallery.cells.center_m[cells])
@@ -225,7 +205,6 @@ class Localizer:
 
     @cached_property
     def _vectors(self) -> VectorLocalizer:
-        """Load vector search, with all levels of the index."""
         has_levels = STARTS_FILE in self.manifest.files
         ranker = Ranker.load(self.retriever, self._directory, self.ranker.store) if has_levels else self.ranker
         return VectorLocalizer(ranker, self.gallery, self.frame, self.manifest.grid_m, sentences=self.sentences)
@@ -286,7 +265,6 @@ class Localizer:
         )
 
     def _cell_fields(self, row: int) -> dict[str, Any]:
-        """Return the fields that all cell answers share."""
         cells, half_m = self.gallery.cells, self.gallery.cells.size_m / 2
         x, y = (float(v) for v in cells.center_m[row, :2])
         return {

@@ -33,13 +33,7 @@ def embed_phrases(phrases: Sequence[str], embed: Embed) -> tuple[list[str], Floa
 
 
 class Meanings:
-    """Names and nouns of two or more words, searched by the cosine of the text encoder's vectors.
-
-    Args:
-        phrases: P phrases in plain words.
-        store: unit vectors [P, W] of the phrases.
-        embed: returns unit vectors [S, W] of S phrases.
-    """
+    """P names and nouns of two or more words, searched by the cosine of the text encoder's unit vectors [P, W]."""
 
     def __init__(self, phrases: Sequence[str], store: FaissStore, embed: Embed) -> None:
         self._phrases, self._store, self._embed = phrases, store, embed
@@ -60,7 +54,6 @@ class Meanings:
 
     @cachedmethod(lambda meanings: meanings._cache)
     def _nearest(self, phrase: str) -> int:
-        """Return the row of the nearest phrase; -1 if none is near enough."""
         cosine, row = self._store.search(self._embed([phrase]).numpy(), 1)
         return int(row[0, 0]) if cosine[0, 0] >= MIN_COSINE else -1
 
@@ -72,11 +65,7 @@ class Meanings:
 
     @classmethod
     def load(cls, directory: Path, embed: Embed) -> "Meanings":
-        """Read the files that `save` wrote.
-
-        Raises:
-            IndexBroken: the files cannot be read.
-        """
+        """Read the files that `save` wrote; IndexBroken if they cannot be read."""
         store = FaissStore.load(directory / VECTORS_FILE)
         try:
             phrases = json.loads((directory / PHRASES_FILE).read_text(encoding="utf-8"))

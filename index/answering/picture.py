@@ -25,14 +25,7 @@ MIN_NAME_DISTANCE: Final = (0.16, 0.035)  # as shares of the sides; closer names
 
 
 def draw_answer(localizer: Localizer, text: str, answer: Answer, path: Path) -> None:
-    """Write a PNG of an answer: the estimate with its surroundings on the left, the whole map on the right.
-
-    Args:
-        localizer: that answered; its index contains the drawing of the map.
-        text: the description.
-        answer: with an estimate.
-        path: the PNG file.
-    """
+    """Write a PNG of an answer: the estimate with its surroundings on the left, the whole map on the right."""
     if answer.estimate is None:
         raise ValueError("an answer without an estimate cannot be drawn")
     scenery_part = localizer.scenery(0)
@@ -61,7 +54,6 @@ def draw_answer(localizer: Localizer, text: str, answer: Answer, path: Path) -> 
 
 
 def _draw_captions(figure: Figure, localizer: Localizer, text: str, answer: Answer) -> None:
-    """Draw the description and the answer in words."""
     assert answer.estimate is not None
     quoted = textwrap.shorten(text, 150, placeholder=" …")
     place = answer.estimate.place or "here"
@@ -76,7 +68,6 @@ def _draw_captions(figure: Figure, localizer: Localizer, text: str, answer: Answ
 
 
 def _map_box(localizer: Localizer) -> tuple[float, float, float, float]:
-    """Return west, south, east and north of the map."""
     centers, half = localizer.gallery.cells.center_m[:, :2], localizer.gallery.cells.size_m / 2
     (west, south), (east, north) = centers.min(axis=0) - half, centers.max(axis=0) + half
     return float(west), float(south), float(east), float(north)
@@ -132,7 +123,6 @@ def _draw_estimate(axes: Axes, estimate: Estimate, colours: dict[str, Any]) -> N
 
 
 def _draw_names(axes: Axes, scenery: DecodedScenery, colours: dict[str, Any]) -> None:
-    """Draw as many street and place names as fit."""
     (west, east), (south, north) = axes.get_xlim(), axes.get_ylim()
     used: list[tuple[float, float]] = []
     effects = [withStroke(linewidth=2.5, foreground=colours["halo"])]

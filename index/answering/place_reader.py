@@ -34,35 +34,22 @@ MIN_CLASS_TRUST: Final = 0.5  # probability of a hint's class from which it desc
 HEADING_NODES: Final = 128  # the likeliest nodes decide the heading
 MAX_HEADING_SPREAD_DEG: Final = 60.0  # a less certain heading is not reported
 _SIDE_WORDS: Final = ((22.5, "ahead"), (67.5, "ahead {}"), (112.5, "{}"), (157.5, "behind {}"), (181.0, "behind"))
-NEAR_RELATIONS: Final = frozenset(
-    ("seen", "wind", "near", "beside", "on", "inside")
-)  # relations that hints can also express
+NEAR_RELATIONS: Final = frozenset(("seen", "wind", "near", "beside", "on", "inside"))  # hints express them too
 
 
 class PlaceReader:
-    """Finds and explains the named places of one map. Not thread-safe.
-
-    Args:
-        kernels: fitted kernels.
-        cues: trained cue reader.
-        gazetteer: of the map, not empty.
-        text_encoder: knows which words are common.
-        centers_m: [N, 2] of the gallery's cells.
-        grid_m: spacing of the centres.
-        meanings: of the map; None to go without paraphrases.
-        names: of the map; None to build them.
-    """
+    """Finds and explains the named places of one map. Not thread-safe."""
 
     def __init__(
         self,
         kernels: PlaceKernels,
         cues: CueReader,
-        gazetteer: Gazetteer,
+        gazetteer: Gazetteer,  # not empty
         text_encoder: TextEncoder,
-        centers_m: Floats,
-        grid_m: float,
-        meanings: Meanings | None = None,
-        names: NameTable | None = None,
+        centers_m: Floats,  # [N, 2] of the gallery's cells
+        grid_m: float,  # spacing of the centres
+        meanings: Meanings | None = None,  # None to go without paraphrases
+        names: NameTable | None = None,  # built if None
     ) -> None:
         self.gazetteer, self.field = gazetteer, PlaceField(kernels, gazetteer, centers_m, grid_m)
         self.meanings, self._cues = meanings, cues
@@ -76,12 +63,8 @@ class PlaceReader:
     ) -> list[Mention]:
         """Return the mentions of a description.
 
-        Args:
-            description: any text.
-            language: of the text.
-            nouns: start and end of the nouns that the hint reader found.
-            to_listener: whether the position of the listener is known; else the text decides whether it is about a
-                meeting point.
+        `nouns` are the start and end of the nouns that the hint reader found. With `to_listener` the position of a
+        listener is known; otherwise the text decides whether it is about a meeting point.
         """
         mentions = self._mentions(description, language, tuple(nouns))
         if language == ENGLISH and (to_listener or is_meeting(description)):
@@ -90,7 +73,6 @@ class PlaceReader:
 
     @cachedmethod(lambda reader: reader._cache)
     def _mentions(self, description: str, language: str, nouns: tuple[tuple[int, int], ...]) -> list[Mention]:
-        """As `find_mentions`; of the latest texts it is remembered."""
         like = None if self.meanings is None else self.meanings.like
         return find_mentions(description, self._lookup, self._cues, language, nouns, like)
 
@@ -112,19 +94,12 @@ class PlaceReader:
         """Return the evidence of each mention at a position [2]."""
         known = place_evidence.places.mentions if place_evidence is not None else ()
         explained = self.field.explain(place_evidence.places, position[None]) if place_evidence is not None else []
-        rows_of_evidence = []
-        for mention in mentions:
-            row = next((n for n, other in enumerate(known) if other is mention), None)
-            rows_of_evidence.append(
-                _unexplained_evidence(mention)
-                if row is None
-                else self._mention_evidence(mention, explained[row], position)
-            )
-        return tuple(rows_of_evidence)
+        explanation_of = {id(mention): explanation for mention, explanation in zip(known, explained, strict=True)}
+        return tuple(self._mention_evidence(m, explanation_of.get(id(m)), position) for m in mentions)
 
-    def _mention_evidence(self, mention: Mention, by: MentionExplanation, position: Floats) -> Evidence:
+    def _mention_evidence(self, mention: Mention, by: MentionExplanation | None, position: Floats) -> Evidence:
         evidence = _unexplained_evidence(mention)
-        if by.item < 0:
+        if by is None or by.item < 0:
             return evidence
         shown: dict[str, Any] = {"away_m": round(float(np.hypot(*by.way_m)), 1)}
         shown["at"] = pair(np.round(position + by.way_m, 2))
@@ -179,12 +154,7 @@ def near_hints(
     """Divide overlapping hints and mentions: return the rows of the hints, and the mentions.
 
     A class with at most a compass direction is a hint. Names, streets, and places relative to the speaker's heading are
-    mentions.
-
-    Args:
-        hints: of a text.
-        trust: probability of each hint's class.
-        mentions: of the same text.
+    mentions. `trust` is the probability of each hint's class.
     """
     near_rows: list[int] = []
     places = list(mentions)
@@ -220,7 +190,6 @@ def _is_overlapping(one: Measure, other: Measure) -> bool:
 
 
 def _memory_bytes(mentions: Sequence[Mention]) -> int:
-    """Return the approximate memory of mentions, bytes."""
     return 2000 + sum(1000 + m.objects.nbytes + m.weights.nbytes + m.lines_m.nbytes for m in mentions)
 
 

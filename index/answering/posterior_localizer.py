@@ -60,20 +60,7 @@ WELL_LOCATED_M = 10.0  # after a reply, questions go on until the 50 % radius is
 
 
 class PosteriorLocalizer:
-    """Localizes descriptions by the hint posterior. Not thread-safe.
-
-    Args:
-        model: the hint posterior.
-        gallery: the cells, with labels and names.
-        palette: the map's colour words.
-        frame: of the map.
-        surroundings: of the gallery.
-        ranker: of the gallery; adds candidates to those of the inverted list.
-        gazetteer: of the map; empty if nothing has a name.
-        grid_m: spacing of the cells.
-        meanings: of the gazetteer; None to go without paraphrases.
-        statements, names, landmarks: of the gallery and its gazetteer; None to build them.
-    """
+    """Localizes descriptions by the hint posterior. Not thread-safe."""
 
     method: Method = "posterior"
 
@@ -84,11 +71,11 @@ class PosteriorLocalizer:
         palette: Palette,
         frame: Frame,
         surroundings: NeighbourIndex,
-        ranker: Ranker,
+        ranker: Ranker,  # adds candidates to those of the inverted list
         gazetteer: Gazetteer = EMPTY_GAZETTEER,
         grid_m: float = 10.0,
-        meanings: Meanings | None = None,
-        statements: Statements | None = None,
+        meanings: Meanings | None = None,  # None to go without paraphrases
+        statements: Statements | None = None,  # these three are built if None
         names: NameTable | None = None,
         landmarks: Landmarks | None = None,
     ) -> None:
@@ -152,7 +139,6 @@ class PosteriorLocalizer:
         return replace(result, timings_ms=timings, warnings=warnings)
 
     def _is_uncertain(self, located: Located, answered: Answered | None) -> bool:
-        """Return whether a follow-up question makes sense."""
         p50 = located.radii_m(0.5)[0]
         return is_ambiguous(p50, self.gallery.cells) or (answered is not None and p50 > WELL_LOCATED_M)
 
@@ -172,7 +158,6 @@ class PosteriorLocalizer:
         mentions: Sequence[Mention],
         place_evidence: PlaceEvidence | None,
     ) -> LocalizerResult:
-        """Return the result with the evidence of each hint and mention, the place in words and the heading."""
         evidence = self._evidence(hints, reading, located) if reading is not None else ()
         if self.places is None:
             return LocalizerResult(located, evidence=evidence)
@@ -224,7 +209,6 @@ class PosteriorLocalizer:
         return nodes_inside(query, self.surroundings, self.gallery.cells.center_m[:, :2], self.frame)
 
     def _calibrate_radii(self, located: Located, query: Query, place_evidence: PlaceEvidence | None) -> Located:
-        """Return the distribution with radii calibrated on validation data."""
         config: PosteriorConfig = self.weights.config
         if place_evidence is None:
             return replace(located, held=config.radius_held)
@@ -250,7 +234,6 @@ class PosteriorLocalizer:
         ]
 
     def _evidence(self, hints: Sequence[ParsedHint], reading: Reading, located: Located) -> tuple[Evidence, ...]:
-        """Return the evidence of each hint at the best position."""
         node = int(located.points[((located.points_m - located.positions[0]) ** 2).sum(axis=1).argmin()])
         explanations = self.nodes.explain(reading, node)
         return tuple(self._hint_evidence(node, *row) for row in zip(hints, reading.label, explanations, strict=True))

@@ -46,25 +46,14 @@ class Reply:
 
 @dataclass(frozen=True, slots=True)
 class Query:
-    """One description to localize.
+    """One description to localize."""
 
-    Attributes:
-        description: any text with at least one word.
-        top_k: number of candidates to list.
-        within: filter, or None.
-        prior: bias, or None.
-        crs: coordinate system of `within` and `prior`.
-        refine: how positions inside the candidates are found; "none" keeps the centres; "posterior" also ranks the
-            candidates by the hint posterior.
-        heat_map: whether to include the distribution in the answer.
-        replies: replies to questions of earlier answers; only the posterior uses them.
-    """
-
-    description: str
+    description: str  # with at least one word
     top_k: int = DEFAULT_TOP_K
     within: Box | Circle | None = None
     prior: Prior | None = None
-    crs: Crs = "map"
+    crs: Crs = "map"  # coordinate system of `within` and `prior`
+    # How positions are found: "none" keeps the centres of cells; "posterior" also ranks the candidates.
     refine: Refine = DEFAULT_REFINE
-    heat_map: bool = False
-    replies: tuple[Reply, ...] = ()
+    heat_map: bool = False  # whether to include the distribution in the answer
+    replies: tuple[Reply, ...] = ()  # replies to questions of earlier answers; only the posterior uses them

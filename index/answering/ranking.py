@@ -19,14 +19,9 @@ RERANKED_CELLS = 100  # cells re-ranked by the other levels
 
 
 class Ranker:
-    """Ranks the cells of a gallery by all available levels.
+    """Ranks the cells of a gallery by the global level in `store` and the other levels in `table`.
 
-    Args:
-        retriever: the model that encoded store and table.
-        store: the gallery's vectors, global level.
-        table: the other levels; empty if the retriever has none, or they are not needed.
-        depth: number of cells re-ranked by the other levels; 0 uses the global level alone, the size of the gallery is
-            what MNCL's released code does.
+    `depth` cells are ranked again by the other levels: none for 0, all as in MNCL's released code.
     """
 
     def __init__(
@@ -42,47 +37,23 @@ class Ranker:
         labels: Sequence[str],
         depth: int = RERANKED_CELLS,
     ) -> "Ranker":
-        """Encode a gallery.
-
-        Args:
-            retriever: the model.
-            cells: the gallery.
-            labels: of each instance.
-            depth: as in the class.
-        """
+        """Encode a gallery."""
         features = retriever.with_point_features(CellFeatures.from_cells(cells, np.array(labels)))
         vectors, table = encode_gallery(retriever, features)
         return cls(retriever, FaissStore.from_vectors(vectors), table, depth)
 
     @classmethod
     def load(cls, retriever: Retriever, directory: Path, store: VectorStore) -> "Ranker":
-        """Read the levels other than the global one, which is in the store.
-
-        Args:
-            retriever: the model of the index; its levels are read.
-            directory: of the index version.
-            store: the vectors of the global level.
-
-        Raises:
-            IndexBroken: the levels cannot be read.
-        """
+        """Read the levels other than the global one, which is in the store; IndexBroken if they cannot be read."""
         table = EMPTY_LEVEL_TABLE if retriever.levels == ("global",) else LevelTable.load(directory, retriever.levels)
         return cls(retriever, store, table)
 
     def search(self, texts: Sequence[Levels], k: int) -> tuple[Floats, Rows]:
-        """Return the k best cells by the global level alone; arguments and return as `rank`."""
+        """Return the k best cells by the global level alone, as `rank`."""
         return self.store.search(np.concatenate([text.global_vectors.cpu().numpy() for text in texts]), k)
 
     def rank(self, texts: Sequence[Levels], k: int) -> tuple[Floats, Rows]:
-        """Return the k best cells of each description.
-
-        Args:
-            texts: Q descriptions (`Retriever.encode_description`).
-            k: number of cells; cut to the size of the gallery.
-
-        Returns:
-            scores [Q, k] and rows [Q, k], best first, equal scores by row.
-        """
+        """Return scores [Q, k] and rows [Q, k] of the k best cells of each description, equal scores by row."""
         scores, rows = self.search(texts, k if self._is_global else max(k, self.depth))
         if not self._is_global:
             scores = np.stack([self._refine(*part) for part in zip(texts, rows, scores, strict=True)])
@@ -106,7 +77,6 @@ class Ranker:
 
     @property
     def _is_global(self) -> bool:
-        """Return whether only the global level is used."""
         return self.table.is_empty or not self.depth
 
     def _refine(self, text: Levels, rows: npt.NDArray[np.integer[Any]], whole: Floats) -> Floats:

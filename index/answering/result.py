@@ -30,27 +30,16 @@ MAX_HEAT_POINTS, HEAT_MASS = 500, 0.95  # points of a heat map, and the mass the
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LocalizerResult:
-    """The result of one query.
+    """The result of one query."""
 
-    Attributes:
-        located: the position distribution; None without usable text or without cells to search.
-        refusal: why there is no match, and what to do about it; None if there is one.
-        evidence: one entry per hint, if the localizer gives any.
-        timings_ms: "encode", "search", "estimate".
-        place: the position in words.
-        heading: where the speaker looks.
-        warnings: sentences for the caller.
-        question: the follow-up question of an ambiguous or refused text.
-    """
-
-    located: Located | None
-    refusal: str | None = None
-    evidence: tuple[Evidence, ...] = ()
+    located: Located | None  # the position distribution; None without usable text or without cells to search
+    refusal: str | None = None  # why there is no match, and what to do about it; None if there is one
+    evidence: tuple[Evidence, ...] = ()  # one entry per hint, if the localizer gives any
     timings_ms: dict[str, float] = field(default_factory=dict)
-    place: str | None = None
+    place: str | None = None  # the position in words
     heading: Heading | None = None
-    warnings: tuple[str, ...] = ()
-    question: Question | None = None
+    warnings: tuple[str, ...] = ()  # sentences for the caller
+    question: Question | None = None  # the follow-up question of an ambiguous or refused text
 
 
 class CellLocalizer(Protocol):
@@ -74,15 +63,7 @@ class CellLocalizer(Protocol):
 def to_answer(
     query: Query, result: LocalizerResult, localizer: CellLocalizer, cells: CellTable, frame: Frame
 ) -> Answer:
-    """Turn a localizer's result into an answer.
-
-    Args:
-        query: the query.
-        result: of the localizer.
-        localizer: that found it.
-        cells: the gallery.
-        frame: of the map.
-    """
+    """Turn a localizer's result into an answer."""
     located = result.located
     if located is None or result.refusal is not None:
         return Answer(

@@ -15,11 +15,7 @@ CHUNKS_PER_BATCH = 16
 
 
 class ChunkReader:
-    """Parses descriptions chunk by chunk. Not thread-safe.
-
-    Args:
-        reader: the trained hint reader.
-    """
+    """Parses descriptions chunk by chunk. Not thread-safe."""
 
     def __init__(self, reader: Reader) -> None:
         self._reader = reader
@@ -57,7 +53,6 @@ def with_description_spans(description: str, evidence: Sequence[Evidence]) -> tu
 
 
 def _shift_hints(chunks: Sequence[str], read: Mapping[str, Sequence[ParsedHint]]) -> Iterator[ParsedHint]:
-    """Yield the hints of the chunks of a text, with spans in the whole text."""
     before = 0
     for chunk in chunks:
         yield from (hint.shifted(before) for hint in read[chunk])

@@ -32,17 +32,7 @@ def raw_sentences(descriptions: Sequence[str]) -> list[tuple[str, ...]]:
 
 
 class VectorLocalizer:
-    """Localizes descriptions by the vectors of the cells.
-
-    Args:
-        ranker: of the gallery.
-        gallery: the cells.
-        frame: of the map.
-        grid_m: spacing of the cells.
-        refiner: finds positions inside the listed cells; None keeps the centres.
-        sentences: turns descriptions into the sentences that the models encode.
-        depth: number of cells in the softmax.
-    """
+    """Localizes descriptions by the vectors of the cells."""
 
     def __init__(
         self,
@@ -50,9 +40,9 @@ class VectorLocalizer:
         gallery: Gallery,
         frame: Frame,
         grid_m: float,
-        refiner: FineModel | None = None,
-        sentences: SplitTexts = raw_sentences,
-        depth: int = RANKED_CELLS,
+        refiner: FineModel | None = None,  # finds positions inside the listed cells; None keeps the centres
+        sentences: SplitTexts = raw_sentences,  # turns descriptions into the sentences that the models encode
+        depth: int = RANKED_CELLS,  # number of cells in the softmax
     ) -> None:
         self.ranker, self.gallery, self.frame, self.refiner = ranker, gallery, frame, refiner
         self.grid_m, self.sentences, self.depth = grid_m, sentences, depth
@@ -90,7 +80,6 @@ class VectorLocalizer:
         ]
 
     def _rank(self, queries: Sequence[Query], texts: Sequence[Levels]) -> list[tuple[Ints, Floats]]:
-        """Return the rows of the cells to consider for each query, and their scores."""
         plain = [n for n, query in enumerate(queries) if query.within is None and query.prior is None]
         ranked: dict[int, tuple[Ints, Floats]] = {}
         if plain:
@@ -104,7 +93,6 @@ class VectorLocalizer:
         return [ranked[n] for n in range(len(queries))]
 
     def _order(self, query: Query, text: Levels, ranked: tuple[Ints, Floats]) -> tuple[Ints, Floats, Floats]:
-        """Return rows, scores and probabilities of cells, likeliest first."""
         rows, scores = ranked
         probability = self._probability(query, int(text.mask.sum()), rows, scores)
         order = np.lexsort((rows, -probability))
@@ -113,8 +101,8 @@ class VectorLocalizer:
     def _probability(self, query: Query, hints: int, rows: Ints, scores: Floats) -> Floats:
         """Return the probability [R] that each cell is the right one.
 
-        softmax(score / T) over the gallery, with T fitted on validation queries (`Retriever.temperature`). Cells
-        beyond the depth count as if they scored like the last one, so the uncertainty is never understated.
+        softmax(score / T) over the gallery, with T fitted on validation queries (`Retriever.temperature`). Cells beyond
+        the depth count as if they scored like the last one, so the uncertainty is never understated.
         """
         if not len(rows):
             return np.zeros(0)

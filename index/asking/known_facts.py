@@ -13,40 +13,22 @@ from models.posterior.likelihood import Reading
 
 @dataclass(frozen=True, slots=True)
 class KnownFacts:
-    """Facts about the speaker's position that need no question.
+    """Facts about the speaker's position that need no question."""
 
-    Attributes:
-        labels: classes that the text mentions.
-        winds: the mentioned classes with a compass direction.
-        colours: the mentioned classes with a colour.
-        is_on_street: whether the text names a street.
-        is_at_corner: whether the text names two streets that meet.
-        is_at_name: whether the text names a place.
-        is_at_house: whether the text has a house number.
-        has_winds: whether the speaker seems to know where north is.
-    """
-
-    labels: frozenset[str] = frozenset()
-    winds: frozenset[str] = frozenset()
-    colours: frozenset[str] = frozenset()
+    labels: frozenset[str] = frozenset()  # classes that the text mentions
+    winds: frozenset[str] = frozenset()  # the mentioned classes with a compass direction
+    colours: frozenset[str] = frozenset()  # the mentioned classes with a colour
     is_on_street: bool = False
-    is_at_corner: bool = False
+    is_at_corner: bool = False  # whether the text names two streets that meet
     is_at_name: bool = False
     is_at_house: bool = False
-    has_winds: bool = True
+    has_winds: bool = True  # whether the speaker seems to know where north is
 
     @classmethod
     def from_text(
         cls, reading: Reading | None, mentions: Sequence[Mention], labels: Sequence[str], gazetteer: Gazetteer
     ) -> "KnownFacts":
-        """Collect the facts that a text states.
-
-        Args:
-            reading: the hints bound to classes; None without hints.
-            mentions: of named places.
-            labels: the map's classes.
-            gazetteer: the map's names.
-        """
+        """Collect the facts that a text states."""
         labelled, with_wind, with_colour = set[str](), set[str](), set[str]()
         if reading is not None:
             trust, number = reading.label.max(dim=1)

@@ -22,11 +22,7 @@ _ANSWER_NOUNS: Final = {"name": "place that people know by its name", "address":
 
 
 class OpenQuestions:
-    """The open questions about one map.
-
-    Args:
-        landmarks: the names around its cells.
-    """
+    """The open questions about one map, from the names around its cells."""
 
     def __init__(self, landmarks: Landmarks) -> None:
         self._landmarks = landmarks
@@ -36,10 +32,9 @@ class OpenQuestions:
         return self._landmarks.has_corners if kind == "corner" else len(self._name_index(kind)) > 0
 
     def answered(self, replies: Sequence[Reply]) -> Floats | None:
-        """Return log p(replied names | cell) of cells [N]; None if no reply has a name.
+        """Return log p(replied names
 
-        Raises:
-            ReplyError: the map lacks the name.
+        cell) of cells [N]; None without a name, ReplyError if the map lacks one.
         """
         total, street = None, self._street_columns(replies)
         for number, reply in enumerate(replies):
@@ -92,7 +87,6 @@ class OpenQuestions:
         return names
 
     def _street_columns(self, replies: Sequence[Reply]) -> Ints:
-        """Return the columns of the streets that a reply may mean."""
         return next(
             (self._named_columns(n, reply) for n, reply in enumerate(replies) if reply.question == "street"),
             _NO_COLUMNS,

@@ -68,11 +68,7 @@ class QuestionSpec:
         return ("yes", "no") if self.kind == "near" else (*self.names[1:], OTHER)
 
     def question(self, listed: Sequence[str] = ()) -> Question:
-        """Return the question with its text and choices.
-
-        Args:
-            listed: names that an open question offers.
-        """
+        """Return the question with its text and choices; an open question offers the `listed` names."""
         closed = tuple(Choice(value, _CHOICE_TEXTS.get(value, value.capitalize())) for value in (*self.values, UNKNOWN))
         return Question(self.id, self._text(), (*(Choice(name, name) for name in listed), *closed), self.is_open)
 

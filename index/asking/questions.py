@@ -37,16 +37,7 @@ def build_landmarks(gazetteer: Gazetteer, cells: CellTable) -> Landmarks:
 
 
 class Questions:
-    """The questions about one map.
-
-    Args:
-        sights: the objects around its nodes.
-        labels: the classes of the objects.
-        palette: the map's colour words.
-        gazetteer: of the map; empty if nothing has a name.
-        cells: the gallery.
-        landmarks: of the gallery; None to build them on demand.
-    """
+    """The questions about one map; landmarks are built on demand unless they are given."""
 
     def __init__(
         self,
@@ -69,15 +60,10 @@ class Questions:
 
     @cached_property
     def _middle_nodes(self) -> Ints:
-        """Return a node in the middle of each cell that has nodes."""
         return self._sights.surroundings.middles(self._cells.center_m[:, :2].astype(np.float64))
 
     def answered(self, replies: Sequence[Reply]) -> Answered | None:
-        """Return the likelihood of the replies; None if they add nothing.
-
-        Raises:
-            ReplyError: a reply does not answer a question about this map.
-        """
+        """Return the likelihood of the replies; None if they add nothing, ReplyError if one does not fit this map."""
         if not replies:
             return None
         read = [self._read(number, reply) for number, reply in enumerate(replies)]
@@ -113,13 +99,7 @@ class Questions:
         return self._ask(*self._likely_nodes(located), known_facts, replies)
 
     def ask_anywhere(self, log_prior: Floats, known_facts: KnownFacts, replies: Sequence[Reply]) -> Question | None:
-        """Return the best question for a text that says nothing useful.
-
-        Args:
-            log_prior: [N] of the cells, up to a constant; -inf outside the area.
-            known_facts: of the text.
-            replies: without information so far.
-        """
+        """Return the best question for a text that says nothing useful; the log prior [N] is -inf outside the area."""
         log_p = log_prior[self._owning]
         if not (log_p > -np.inf).any():
             return None
@@ -152,7 +132,6 @@ class Questions:
     def _object_question_gains(
         self, nodes: Ints, mass: Floats, known_facts: KnownFacts, replies: Sequence[Reply]
     ) -> dict[QuestionSpec, float]:
-        """Return the expected gain in bits of each closed question."""
         objects_seen = self._sights.seen(nodes, sorted(self._object_classes.values()))
         before = [spec for reply in replies if (spec := QuestionSpec.parse(reply.question)) is not None]
         specs = [spec for spec in self._object_questions(mass, objects_seen, known_facts) if spec not in before]
@@ -164,7 +143,6 @@ class Questions:
         return dict(zip(specs, gain.tolist(), strict=True))
 
     def _object_questions(self, mass: Floats, objects_seen: Seen, known_facts: KnownFacts) -> list[QuestionSpec]:
-        """Return the closed questions about classes near some of the likely nodes."""
         specs = []
         for label, number in self._object_classes.items():
             has = objects_seen.share(number, mass)

@@ -36,30 +36,22 @@ _log = logging.getLogger(__name__)
 
 
 class Aliases(BaseModel):
-    """The content of the alias file.
-
-    Attributes:
-        aliases: version by alias.
-        versions: sha256 of the manifest, by registered version.
-    """
+    """The content of the alias file."""
 
     model_config = ConfigDict(extra="forbid")
 
-    aliases: dict[Name, Name] = {}
-    versions: dict[Name, Sha256] = {}
+    aliases: dict[Name, Name] = {}  # version by alias
+    versions: dict[Name, Sha256] = {}  # sha256 of the manifest, by registered version
 
 
 OLD_ALIASES: Final = TypeAdapter(dict[Name, Name])
 
 
 def set_alias(root: Path, alias: str, version: str) -> None:
-    """Point an alias to a version, and register the version if needed.
+    """Point an alias to a version, and register the version if needed; IndexBroken if the alias file is broken.
 
     Running services follow the alias file. If the vectors are in Milvus, the alias "default" is also moved there, for
     people who look into Milvus; nothing here reads that alias.
-
-    Raises:
-        IndexBroken: the alias file cannot be read.
     """
     with _edit_aliases(root) as known:
         known.aliases[alias] = version
@@ -79,11 +71,7 @@ def _move_in_milvus(alias: str, manifest: Manifest) -> None:
 
 
 def remove_alias(root: Path, alias: str) -> None:
-    """Remove an alias and keep the version it names.
-
-    Raises:
-        IndexBroken: there is no such alias, or the alias file cannot be read.
-    """
+    """Remove an alias and keep the version it names; IndexBroken if there is no such alias."""
     known = read_aliases(root)
     if alias not in known.aliases:
         raise IndexBroken(f"no alias {alias} in {root}; its aliases are {_join_names(known.aliases)}")
@@ -92,15 +80,7 @@ def remove_alias(root: Path, alias: str) -> None:
 
 
 def register(root: Path, version: str) -> Manifest:
-    """Register a version that was built elsewhere and copied into the index directory, without an alias.
-
-    Returns:
-        Its manifest.
-
-    Raises:
-        IndexBroken: the version is missing, incomplete or changed.
-        StoreUnavailable: the vectors are in Milvus, which does not answer.
-    """
+    """Check and register a version that was copied into the index directory, without an alias; return its manifest."""
     if version in read_aliases(root).versions:
         return verify(root / version)
     manifest = read_manifest(root / version)
@@ -114,7 +94,6 @@ def register(root: Path, version: str) -> Manifest:
 
 @contextmanager
 def _edit_aliases(root: Path) -> Iterator[Aliases]:
-    """Lock the alias file, and write the edited aliases unless the block raises."""
     root.mkdir(parents=True, exist_ok=True)
     with FileLock(root / LOCK_FILE):
         known = read_aliases(root)
@@ -123,11 +102,7 @@ def _edit_aliases(root: Path) -> Iterator[Aliases]:
 
 
 def read_aliases(root: Path) -> Aliases:
-    """Return the aliases and registered versions of an index directory, or none if there is no alias file.
-
-    Raises:
-        IndexBroken: the file is broken, or cannot be read.
-    """
+    """Return the aliases and registered versions of an index directory; IndexBroken if they cannot be read."""
     try:
         content = (root / ALIASES_FILE).read_bytes()
         with suppress(ValidationError):  # up to format 6 the file held aliases alone
@@ -146,17 +121,10 @@ def list_versions(root: Path) -> list[str]:
 
 
 def find_version(path: Path, alias: str = DEFAULT_ALIAS) -> tuple[Path, Manifest]:
-    """Find an index version and check sizes only; the service checks the sums once it is ready.
+    """Return the directory and manifest of an index version, given as its path or by an index directory and an alias.
 
-    Args:
-        path: an index directory, or one of its versions.
-        alias: the alias to follow if `path` is an index directory.
-
-    Returns:
-        The version's directory and its manifest. The manifest is as registered, and every file has its recorded size.
-
-    Raises:
-        IndexBroken: the version is missing or incomplete, or its manifest was changed.
+    Only the manifest and the sizes of the files are checked. Raise IndexBroken if the version is missing, incomplete or
+    its manifest was changed.
     """
     directory = path if (path / MANIFEST).is_file() else _version_directory(path, alias)
     known = read_aliases(directory.parent).versions
@@ -166,25 +134,13 @@ def find_version(path: Path, alias: str = DEFAULT_ALIAS) -> tuple[Path, Manifest
 
 
 def open_version(path: Path, alias: str = DEFAULT_ALIAS) -> tuple[Path, Manifest]:
-    """Find an index version and check the sums of all its files.
-
-    Args:
-        path: as `find_version`.
-        alias: as `find_version`.
-
-    Returns:
-        The version's directory and its manifest; every file is unchanged.
-
-    Raises:
-        IndexBroken: the version is missing, incomplete or changed.
-    """
+    """Do as `find_version`, and check the sums of all files too."""
     directory, manifest = find_version(path, alias)
     check_sums(directory, manifest)
     return directory, manifest
 
 
 def _version_directory(root: Path, alias: str) -> Path:
-    """Return the directory of the version that an alias names."""
     aliases = read_aliases(root).aliases
     if alias not in aliases:
         there = f"; its aliases are {_join_names(aliases)}" if aliases else ""
@@ -197,12 +153,7 @@ def _join_names(names: Iterable[str]) -> str:
 
 
 def check_store(manifest: Manifest) -> None:
-    """Check that Milvus has all vectors of a version, if its vectors are there.
-
-    Raises:
-        IndexBroken: the collection is missing or has a different number of rows.
-        StoreUnavailable: Milvus does not answer.
-    """
+    """Raise IndexBroken or StoreUnavailable if a version's vectors are in Milvus, but not all of them."""
     if manifest.collection is not None:
         with closing(_milvus_store(manifest)) as store:
             store.check()
@@ -214,11 +165,7 @@ def _milvus_store(manifest: Manifest) -> MilvusStore:
 
 
 def verify(directory: Path) -> Manifest:
-    """Check every file of a version, and its rows in Milvus, and return its manifest.
-
-    Raises:
-        IndexBroken, StoreUnavailable: as `open_version` and `check_store`.
-    """
+    """Check every file of a version, and its rows in Milvus, and return its manifest."""
     manifest = open_version(directory)[1]
     check_store(manifest)
     return manifest

@@ -29,12 +29,10 @@ from models.spool import scratch, spooling_in
 
 
 def no_progress(_stage: str, _done: int, _total: int) -> None:
-    """Ignore a progress report."""
+    """Do nothing."""
 
 
 class _LoadedModels(NamedTuple):
-    """The models and the map's fingerprint, needed by every step."""
-
     retriever: Retriever
     posterior: PosteriorModel
     map_sha256: str
@@ -45,40 +43,22 @@ class IndexJob:
     """The indexing of one map: in one process (`build`), or in shards (`make_shard` for each, then `merge`).
 
     Both ways give the same bytes on the same kind of processor.
-
-    Attributes:
-        map_path: as `models.sources.source.open_sources`.
-        out_dir: the index directory; older versions in it are kept.
-        weights_dir: the retriever's weights; None for the weights in the package.
-        split: as `models.sources.source.open_sources`.
-        keep_current: build nothing if the default version was built from this map by this model.
-        levels: also store the retriever's other levels, which every `refine` but the default ranks by.
-        store: where the vectors go: a file, or the Milvus server that HEREABOUTS_MILVUS_URI names.
-        within: the region of an OpenStreetMap file to index; None for all of it.
     """
 
     map_path: Path
-    out_dir: Path
+    out_dir: Path  # the index directory; older versions in it are kept
     weights_dir: Path | None = None
     split: str | None = None
-    keep_current: bool = False
-    levels: bool = False
-    store: StoreName = "faiss"
-    within: Region | None = None
+    keep_current: bool = False  # build nothing if the default version was built from this map by this model
+    levels: bool = False  # also store the retriever's other levels, which every `refine` but the default ranks by
+    store: StoreName = "faiss"  # where the vectors go: a file, or the Milvus server that HEREABOUTS_MILVUS_URI names
+    within: Region | None = None  # the region of an OpenStreetMap file to index; None for all of it
 
     def build(self, report: Progress = no_progress) -> Path:
-        """Build a version in this process.
+        """Build a version in this process and return its directory.
 
-        Args:
-            report: called as the work goes on.
-
-        Returns:
-            The version's directory.
-
-        Raises:
-            MapError, DataError: the map cannot be read or cut, or the index cannot be written; older versions stay.
-            WeightsError: a model cannot be loaded.
-            StoreUnavailable: Milvus does not accept the vectors; nothing is left there.
+        Raise DataError if the map or the index directory cannot be used, WeightsError, or StoreUnavailable; older
+        versions stay.
         """
         models = self._load_models(report)
         if current := self._current_version(models):
@@ -97,11 +77,7 @@ class IndexJob:
             return self._publisher(models).publish(source, [shard_data], surroundings, names, report)
 
     def make_shard(self, shard: Shard, report: Progress = no_progress) -> Path:
-        """Make the data of a shard unless it exists; arguments and errors as `build`.
-
-        Returns:
-            The directory of its data.
-        """
+        """Make the data of a shard unless it exists, and return its directory; errors as `build`."""
         models = self._load_models(report)
         shards = self._shard_store(models)
         if shards.fault(shard) is None:
@@ -121,10 +97,9 @@ class IndexJob:
         return shards.path(shard)
 
     def merge(self, count: int, report: Progress = no_progress) -> Path:
-        """Build a version from the data of `count` shards, and remove that data; arguments and errors as `build`.
+        """Build a version from the data of `count` shards, and remove that data.
 
-        Raises:
-            IndexBroken: data of shards is missing, damaged, or of another map or model; nothing is removed.
+        Raise IndexBroken if data is missing, damaged, or of another map or model, and remove nothing; or as `build`.
         """
         models = self._load_models(report)
         shards = self._shard_store(models)
@@ -158,7 +133,6 @@ class IndexJob:
         )
 
     def _encoder(self, models: _LoadedModels) -> Retriever:
-        """Return the retriever, reduced to its global level unless all levels are wanted."""
         return models.retriever if self.levels else models.retriever.global_only()
 
     def _shard_store(self, models: _LoadedModels) -> ShardStore:
@@ -188,7 +162,6 @@ class IndexJob:
 
     @contextmanager
     def _map_file(self, report: Progress) -> Iterator[Path]:
-        """Yield the path of the map, cut to the region if one is given."""
         if self.within is not None:
             report("take the region", 0, 0)
         with extracted_file(self.map_path, self.within) as path:

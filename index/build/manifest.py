@@ -47,28 +47,14 @@ class FrameRecord(BaseModel):
 
 
 class Manifest(BaseModel):
-    """The content and origin of an index version.
-
-    Attributes:
-        format: of the directory.
-        version: the name of the directory.
-        created: UTC, ISO 8601.
-        software: the version of hereabouts.
-        map_name, map_sha256, attribution: of the source; the sha256 is its `fingerprint`.
-        frame, palette, cell_size_m, grid_m: of the city map and its cells.
-        model: the retriever's name, with its text encoder and width.
-        model_fingerprint: sha256 of all weights of the retriever.
-        dim, metric, cells, instances: of the vectors.
-        store, collection: where the vectors are: in a file, or in this collection of Milvus.
-        files: every other file.
-    """
+    """The content and origin of an index version."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     format: int = FORMAT
     version: Name
-    created: Annotated[str, StringConstraints(pattern=r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\+00:00$")]
-    software: str
+    created: Annotated[str, StringConstraints(pattern=r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\+00:00$")]  # UTC, ISO 8601
+    software: str  # the version of hereabouts
     map_name: str
     map_sha256: Sha256
     attribution: str
@@ -76,8 +62,8 @@ class Manifest(BaseModel):
     palette: Literal["basic", "kitti360"]
     cell_size_m: PositiveFloat
     grid_m: PositiveFloat
-    model: str
-    model_fingerprint: Sha256
+    model: str  # the retriever's name, with its text encoder and width
+    model_fingerprint: Sha256  # sha256 of all weights of the retriever
     dim: PositiveInt
     metric: Literal["inner_product"] = "inner_product"
     cells: PositiveInt
@@ -100,11 +86,7 @@ class FormatOnly(BaseModel):
 
 
 def fingerprint(data: Path, split: str | None = None, region: str | None = None) -> str:
-    """Return the sha256 of a map's files, its split and its region.
-
-    Raises:
-        DataError: the path does not exist.
-    """
+    """Return the sha256 of a map's files, its split and its region; DataError without such a path."""
     if not data.exists():
         raise DataError(f"{data}: no such file or directory; give the path of a map")
     if data.is_file():
@@ -136,15 +118,7 @@ def write_manifest(directory: Path, manifest: Manifest) -> None:
 
 
 def read_manifest(directory: Path, expected: str | None = None) -> Manifest:
-    """Read the manifest of a version.
-
-    Args:
-        directory: of the version.
-        expected: the manifest's sha256, if the version is registered.
-
-    Raises:
-        IndexBroken: the manifest is missing, invalid, or not the registered one.
-    """
+    """Read the manifest of a version; IndexBroken if it is missing, invalid, or has another sha256 than `expected`."""
     path = directory / MANIFEST
     try:
         content = path.read_bytes()
@@ -172,11 +146,7 @@ def read_manifest(directory: Path, expected: str | None = None) -> Manifest:
 
 
 def check_files(directory: Path, manifest: Manifest) -> None:
-    """Check that a version's files exist and have the recorded sizes; takes no time.
-
-    Raises:
-        IndexBroken: one is missing or incomplete.
-    """
+    """Check that a version's files have the recorded sizes, which takes no time; or raise IndexBroken."""
     for name, record in manifest.files.items():
         file = directory / name
         if not file.is_file() or file.stat().st_size != record.bytes:
@@ -184,11 +154,7 @@ def check_files(directory: Path, manifest: Manifest) -> None:
 
 
 def check_sums(directory: Path, manifest: Manifest) -> None:
-    """Compare the sha256 of a version's files with its manifest; takes about a second per gigabyte.
-
-    Raises:
-        IndexBroken: a file was changed or cannot be read.
-    """
+    """Compare the sha256 of a version's files with its manifest, a gigabyte per second; or raise IndexBroken."""
     for name, record in manifest.files.items():
         file = directory / name
         try:
@@ -200,11 +166,7 @@ def check_sums(directory: Path, manifest: Manifest) -> None:
 
 
 def check_model(manifest: Manifest, fingerprint: str) -> None:
-    """Check that an index was built by the given model.
-
-    Raises:
-        IndexMismatch: the weights differ.
-    """
+    """Raise IndexMismatch if another model built the index."""
     if manifest.model_fingerprint != fingerprint:
         raise IndexMismatch(
             f"index {manifest.version} was built by model {manifest.model_fingerprint[:12]}, "

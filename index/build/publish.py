@@ -37,19 +37,11 @@ from models.spool import spooled
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Publisher:
-    """Writes index versions.
-
-    Attributes:
-        out_dir: the index directory.
-        retriever: the model that made the vectors.
-        posterior_fingerprint: of the model that made the statements.
-        map_sha256: of the map.
-        store: where the vectors go.
-    """
+    """Writes index versions."""
 
     out_dir: Path
-    retriever: Retriever
-    posterior_fingerprint: str
+    retriever: Retriever  # the model that made the vectors
+    posterior_fingerprint: str  # of the model that made the statements
     map_sha256: str
     store: StoreName
 
@@ -61,21 +53,10 @@ class Publisher:
         names: Callable[[], Path],
         report: Progress,
     ) -> Path:
-        """Write a version and point the alias "default" to it.
+        """Write a version, point the alias "default" to it, and return its directory.
 
-        Args:
-            source: the map.
-            parts: the data of all cells, in order.
-            surroundings: of all cells.
-            names: waits for `save_names` and returns its directory.
-            report: called as the work goes on.
-
-        Returns:
-            The version's directory.
-
-        Raises:
-            DataError: the version cannot be written; older versions stay.
-            StoreUnavailable: Milvus does not accept the vectors; nothing is left there.
+        `names` waits for `save_names` and returns its directory. Raise DataError if the version cannot be written
+        (older versions stay), StoreUnavailable if Milvus does not accept the vectors (nothing is left there).
         """
         data, origin = source.data, new_version(self.map_sha256, self.retriever.fingerprint)
         report("read names", 0, 0)
@@ -121,7 +102,6 @@ class Publisher:
     def _save_parts(
         self, directory: Path, parts: Sequence[ShardData], data: MapData, surroundings: NeighbourIndex
     ) -> None:
-        """Write the levels, hint features and statements of all shards."""
         levels = LevelTable.concatenate([part.levels for part in parts])
         if not levels.is_empty:
             levels.save(directory)
@@ -151,7 +131,6 @@ def _milvus_collection(version: str, vectors: Floats, data: MapData) -> Iterator
 
 
 def _map_fields(data: MapData) -> dict[str, object]:
-    """Return the manifest's fields that describe the map."""
     return {
         "map_name": data.name,
         "attribution": data.attribution,

@@ -19,20 +19,8 @@ def build_on_ray(job: IndexJob, count: int | None, address: str | None, report: 
     """Build an index whose shards are made in a Ray cluster; the merge runs on this machine.
 
     Every machine needs this version of hereabouts, the map and the weights under the same paths, and the shared index
-    directory (NFS, CephFS). A shard uses one CPU.
-
-    Args:
-        job: the map and its options.
-        count: number of shards; None for the number of CPUs in the cluster.
-        address: of the cluster; None for the cluster of this machine.
-        report: called as the work goes on.
-
-    Returns:
-        The version's directory.
-
-    Raises:
-        ClusterUnavailable: Ray is not installed, does not answer, or lost a shard.
-        HereaboutsError: as `IndexJob.make_part` and `IndexJob.merge`.
+    directory (NFS, CephFS). A shard uses one CPU; the default count is the number of CPUs in the cluster, by default of
+    this machine. Raise ClusterUnavailable if Ray is not installed, does not answer or lost a shard.
     """
     try:
         import ray  # noqa: PLC0415  # an extra, which few have
@@ -58,11 +46,7 @@ def build_on_ray(job: IndexJob, count: int | None, address: str | None, report: 
 
 
 def _check_reachable(address: str | None) -> None:
-    """Fail within seconds if nothing listens at the address; Ray itself would wait for minutes.
-
-    Raises:
-        OSError: nothing listens.
-    """
+    """Raise OSError within seconds if nothing listens at the address; Ray itself would wait for minutes."""
     host, colon, port = (address or "").removeprefix("ray://").partition(":")
     if colon and port.isdigit():
         socket.create_connection((host, int(port)), CONNECT_TIMEOUT_S).close()
@@ -88,6 +72,5 @@ def _make_shards(ray: Any, job: IndexJob, count: int, report: Progress) -> None:
 
 
 def _make_shard(job: IndexJob, shard: Shard) -> Path:
-    """Make the data of one shard in a worker."""
     with one_process():
         return job.make_shard(shard)

@@ -10,23 +10,14 @@ MAX_SHARDS: Final = 99_999
 
 @dataclass(frozen=True, slots=True)
 class Shard:
-    """A shard of a map's cells.
-
-    Attributes:
-        number: from 1.
-        count: the number of shards.
-    """
+    """A shard of a map's cells, numbered from 1."""
 
     number: int
     count: int
 
     @classmethod
     def parse(cls, text: str) -> "Shard":
-        """Parse "2/8".
-
-        Raises:
-            ValueError: the text is not a shard.
-        """
+        """Parse "2/8", or raise ValueError."""
         match = SHARD_PATTERN.fullmatch(text)
         if not match or int(match[1]) > int(match[2]):
             raise ValueError(f"'{text[:40]}' is not a shard; expected I/N with I from 1 to N, such as 1/8")
@@ -43,12 +34,7 @@ class Shard:
         return f"{self.number}-of-{self.count}"
 
     def rows(self, cells: int, block: int) -> range:
-        """Return the rows of the shard's cells: whole blocks, or none if there are more shards than blocks.
-
-        Args:
-            cells: number of cells of the map.
-            block: cells per block; the last block may have fewer.
-        """
+        """Return the rows of the shard's cells: whole blocks, or none if there are more shards than blocks."""
         blocks = -(-cells // block)
         ends = (blocks * n // self.count * block for n in (self.number - 1, self.number))
         return range(*(min(end, cells) for end in ends))

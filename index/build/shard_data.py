@@ -40,18 +40,12 @@ CELLS_PER_SPAN: Final = 32 * CELLS_PER_BLOCK  # bounds the memory of the feature
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ShardData:
-    """The data of C consecutive cells of a map.
+    """The data of C consecutive cells of a map."""
 
-    Attributes:
-        vectors: [C, D] float32, the global level.
-        levels: the other levels, possibly empty.
-        rows: the result of `statement_rows`.
-        scanned: the neighbour index of a scan; None for a map of pieces, which computes neighbours on demand.
-    """
-
-    vectors: Floats
-    levels: LevelTable
-    rows: StatementRows
+    vectors: Floats  # [C, D] float32, the global level
+    levels: LevelTable  # the other levels, possibly empty
+    rows: StatementRows  # the result of `statement_rows`
+    # The neighbour index of a scan; None for a map of pieces, which computes neighbours on demand.
     scanned: ScanNeighbourIndex | None
 
     @classmethod
@@ -64,16 +58,7 @@ class ShardData:
         rows: range,
         report: Progress,
     ) -> "ShardData":
-        """Compute the data of some cells, and free the map data that later steps do not need.
-
-        Args:
-            retriever: encodes the vectors, at all its levels.
-            likelihood: tabulates the statements.
-            source: the whole map.
-            surroundings: of these cells.
-            rows: of these cells.
-            report: called as the work goes on.
-        """
+        """Compute the data of some cells, and free the map data that later steps do not need."""
         if isinstance(source, MapSource):
             source.drop_geometry()
         vectors, levels = _encode_cells(retriever, source.data, rows, report)
@@ -104,16 +89,7 @@ class ShardData:
 
     @classmethod
     def load(cls, directory: Path, levels: Sequence[Level], cells: CellTable) -> "ShardData":
-        """Read the files that `save` wrote.
-
-        Args:
-            directory: the shard's directory.
-            levels: of the retriever.
-            cells: all cells of the map.
-
-        Raises:
-            IndexBroken: the files are damaged.
-        """
+        """Read the files that `save` wrote; IndexBroken if they are damaged."""
         try:
             columns, facts = map_arrays(directory / FILE)
             starts, statement, holds, vectors = (columns[name] for name in COLUMNS)

@@ -27,24 +27,16 @@ FORMAT: Final = 2
 
 
 class Origin(BaseModel):
-    """The origin of a shard's data; shards of the same origin can be merged.
-
-    Attributes:
-        format: of the data.
-        software: the version of hereabouts.
-        map_sha256: as `index.build.manifest.fingerprint`.
-        model_fingerprint, posterior_fingerprint: sha256 of all weights of the retriever and of the hint posterior.
-        levels: whether the retriever's other levels are included.
-    """
+    """The origin of a shard's data; shards of the same origin can be merged."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     format: int = FORMAT
     software: str = package_version("hereabouts")
-    map_sha256: Sha256
+    map_sha256: Sha256  # as `index.build.manifest.fingerprint`
     model_fingerprint: Sha256
-    posterior_fingerprint: Sha256
-    levels: bool
+    posterior_fingerprint: Sha256  # of the hint posterior
+    levels: bool  # whether the retriever's other levels are included
 
     @property
     def digest(self) -> str:
@@ -63,30 +55,18 @@ class Origin(BaseModel):
 
 
 class ShardManifest(BaseModel):
-    """The manifest of a shard's data.
-
-    Attributes:
-        origin: of the data.
-        rows: the first row of its cells, and the one after the last.
-        cells: number of cells of the whole map.
-        files: every other file.
-    """
+    """The manifest of a shard's data."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     origin: Origin
-    rows: tuple[int, int]
-    cells: int
-    files: dict[Name, FileRecord]
+    rows: tuple[int, int]  # the first row of its cells, and the one after the last
+    cells: int  # number of cells of the whole map
+    files: dict[Name, FileRecord]  # every other file
 
 
 class ShardStore:
-    """The data of all shards of one origin.
-
-    Args:
-        root: the index directory.
-        origin: of the data.
-    """
+    """The data of all shards of one origin in an index directory."""
 
     def __init__(self, root: Path, origin: Origin) -> None:
         self._root, self._origin = root / SHARDS_DIR, origin
@@ -97,11 +77,7 @@ class ShardStore:
         return self._directory / shard.name
 
     def check_writable(self) -> None:
-        """Check that the directory is writable, before hours of work.
-
-        Raises:
-            OSError: it is not.
-        """
+        """Check that the directory is writable, before hours of work, or raise OSError."""
         self._directory.mkdir(parents=True, exist_ok=True)
         with TemporaryFile(dir=self._directory) as file:
             file.write(b"\0")
@@ -116,7 +92,6 @@ class ShardStore:
         return self._fault(path)
 
     def _fault(self, path: Path) -> str | None:
-        """Return what is wrong with the data in a directory; None if it is complete."""
         try:
             manifest = _read_manifest(path)
             if fault := self._origin.fault(manifest.origin):
@@ -130,14 +105,7 @@ class ShardStore:
     def write(self, shard: Shard, part: ShardData, rows: range, cells: int) -> None:
         """Write the data of a shard, completely or not at all; data that another process wrote first stays.
 
-        Args:
-            shard: the shard.
-            part: its data.
-            rows: of its cells.
-            cells: number of cells of the whole map.
-
-        Raises:
-            OSError, SafetensorError: the data cannot be written.
+        Raise OSError or SafetensorError if the data cannot be written.
         """
         path = self.path(shard)
         if path.exists():
@@ -155,11 +123,7 @@ class ShardStore:
                 raise
 
     def check(self, count: int) -> None:
-        """Check that all shards have left their data.
-
-        Raises:
-            IndexBroken: data is missing, damaged or of another origin; the message names each shard.
-        """
+        """Raise IndexBroken, with the names of the shards, if data is missing, damaged or of another origin."""
         faults = [(shard.name, self.fault(shard)) for shard in Shard.all(count)]
         named = "; ".join(f"{name} {fault}" for name, fault in faults if fault)
         if named:
@@ -169,16 +133,7 @@ class ShardStore:
             )
 
     def read(self, count: int, levels: Sequence[Level], cells: CellTable) -> list[ShardData]:
-        """Read the data of all shards, which were checked, in order.
-
-        Args:
-            count: number of shards.
-            levels: of the retriever.
-            cells: of the map.
-
-        Raises:
-            IndexBroken: data has other cells than its shard.
-        """
+        """Read the checked data of all shards, in order; IndexBroken if one has other cells than its shard."""
         for shard in Shard.all(count):
             manifest, rows = _read_manifest(self.path(shard)), shard.rows(len(cells), CELLS_PER_BLOCK)
             if (*manifest.rows, manifest.cells) != (rows.start, rows.stop, len(cells)):

@@ -20,14 +20,6 @@ def ambiguity(data: MapData, queries: Queries, hints: Sequence[tuple[Hint, ...]]
 
     A cell matches a hint if the same statement (direction, colour, label) is true at its centre. Cells are ranked by
     the number of matching hints; ties are in random order.
-
-    Args:
-        data: the gallery.
-        queries: with known best cells.
-        hints: of each query.
-
-    Returns:
-        "median_cells_that_fit_as_well" and "exact_matching" {k: recall}.
     """
     symbols, cells = _cell_statements(data)
     asked_statements = _query_statements(symbols, hints)

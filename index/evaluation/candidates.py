@@ -15,15 +15,7 @@ SOURCES = ("vector index, raw text", "vector index, read and rendered", "inverte
 
 
 def candidate_recall(queries: Queries, posterior: PosteriorLocalizer) -> list[dict[str, Any]]:
-    """Return the share of queries whose best cell is among the first N candidates of each source.
-
-    Args:
-        queries: with known cells.
-        posterior: of the same gallery.
-
-    Returns:
-        For each of SOURCES "source" and "recall" {N: share}.
-    """
+    """Return for each of SOURCES the share of queries whose best cell is among the first N candidates."""
     deepest = min(CANDIDATE_COUNTS[-1], len(posterior.gallery.cells))
     rank_of_truth = np.full((len(SOURCES), len(queries)), CANDIDATE_COUNTS[-1])
     retriever = posterior.ranker.retriever

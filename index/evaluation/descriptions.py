@@ -20,19 +20,12 @@ NO_DESCRIPTION: Final = (0, np.inf, False, False)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RoundTrips:
-    """The results at P described positions.
+    """The results at P described positions."""
 
-    Attributes:
-        words: [P] of the description; 0 without description.
-        error_m: [P] of the estimate; inf in another scene and without estimate.
-        is_ok: [P] whether the status is "ok".
-        is_held: [P] whether the 90 % radius contains the position.
-    """
-
-    words: npt.NDArray[np.int64]
-    error_m: Floats
-    is_ok: npt.NDArray[np.bool_]
-    is_held: npt.NDArray[np.bool_]
+    words: npt.NDArray[np.int64]  # [P]; 0 without description
+    error_m: Floats  # [P]; inf in another scene and without estimate
+    is_ok: npt.NDArray[np.bool_]  # [P] whether the status is "ok"
+    is_held: npt.NDArray[np.bool_]  # [P] whether the 90 % radius contains the position
 
 
 def draw_positions(localizer: Localizer, count: int, rng: np.random.Generator) -> Floats:
@@ -48,16 +41,8 @@ def draw_positions(localizer: Localizer, count: int, rng: np.random.Generator) -
 def evaluate_descriptions(localizer: Localizer, positions: int, seed: int, progress: Progress) -> dict[str, Any]:
     """Describe random positions of an index and localize the descriptions.
 
-    Args:
-        localizer: of the index.
-        positions: number of positions.
-        seed: of the positions.
-        progress: called as the work goes on.
-
-    Returns:
-        "data", "positions", "seed"; shares of all positions: "described", "within" {metres: share}, "ok", "held" (by
-        the 90 % radius); "median_m", None if it is in another scene or there is no estimate; and "words", the median
-        length of a description, None without any.
+    The report has shares of all positions: "described", "within" {metres: share}, "ok" and "held" (by the 90 % radius);
+    the median error, None if it is in another scene; and the median number of "words".
     """
     drawn = draw_positions(localizer, positions, np.random.default_rng(seed))
     round_trips = localize_descriptions(localizer, drawn, progress)

@@ -1,6 +1,5 @@
 """Evaluation: predictions for queries with known positions are saved, then scored and drawn."""
 
-import json
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -35,18 +34,10 @@ def evaluate(
     grow_m: Sequence[float] = (),
     progress: Progress | None = None,
 ) -> dict[str, Any]:
-    """Localize queries, save the predictions and score them.
+    """Localize queries, save the predictions and score them; return the report of `index.evaluation.scoring.score`.
 
-    Args:
-        data: the gallery.
-        queries: with known positions.
-        localizer: of the gallery.
-        report_dir: directory for predictions.npz, report.json, report.md and the plots; None to write nothing.
-        grow_m: radii of a growing gallery (`grow_gallery`), with predictions for each.
-        progress: called as the work goes on.
-
-    Returns:
-        The report (`index.evaluation.scoring.score`).
+    `report_dir` gets predictions.npz, report.json, report.md and the plots. With `grow_m`, the radii of a growing
+    gallery, it has predictions for each (`grow_gallery`).
     """
     report = progress or (lambda stage, done, total: None)
     predictions = predict(data, queries, localizer, report)
@@ -64,14 +55,7 @@ def evaluate(
 
 
 def predict(data: MapData, queries: Queries, localizer: CellLocalizer, progress: Progress) -> Predictions:
-    """Predict cells and positions for each query.
-
-    Args:
-        data: the gallery.
-        queries: with known positions.
-        localizer: of the gallery.
-        progress: called as the work goes on.
-    """
+    """Predict cells and positions for each query."""
     total, listed = len(queries), min(RANKED_CELLS_KEPT, len(data.cells))
     ranked, scores = np.full((total, listed), -1, np.int32), np.full((total, listed), -np.inf, np.float32)
     positions = np.zeros((total, min(POSITIONS_KEPT, listed), 2))
@@ -122,13 +106,8 @@ def grow_gallery(
     """Build galleries that grow around the same queries (the scalability protocol of MNCL, figure 5).
 
     The gallery has every cell within a radius of the middle of its scene's queries. The queries are those whose best
-    cell lies within the smallest radius.
-
-    Returns:
-        For each radius in ascending order: the radius, gallery and queries, and the gallery's rows in `data`.
-
-    Raises:
-        DataError: a radius is not positive, or contains no query.
+    cell lies within the smallest radius. Return for each radius, ascending: the radius, gallery and queries, and the
+    gallery's rows in `data`.
     """
     if not radii_m:
         return []
@@ -160,7 +139,6 @@ def grow_gallery(
 
 
 def _central_position(positions_m: Floats) -> Floats:
-    """Return the position [2] nearest to the mean."""
     middle: Floats = positions_m[np.linalg.norm(positions_m - positions_m.mean(axis=0), axis=1).argmin()]
     return middle
 
@@ -176,11 +154,7 @@ def save_run(report_dir: Path, predictions: Predictions, grown: Sequence[tuple[f
 
 
 def rescore(report_dir: Path) -> dict[str, Any]:
-    """Score a saved run again and write its report.json, report.md and plots.
-
-    Raises:
-        DataError: there are no saved predictions.
-    """
+    """Score a saved run again and write its report.json, report.md and plots."""
     predictions = Predictions.load(report_dir / PREDICTIONS_FILE)
     radii = sorted(float(path.stem.removeprefix("grow-")) for path in report_dir.glob("grow-*.npz"))
     grown = [(radius, Predictions.load(report_dir / f"grow-{radius:g}.npz")) for radius in radii]
@@ -195,5 +169,4 @@ def _report(predictions: Predictions, grown: Sequence[tuple[float, Predictions]]
         names = ("cells", "queries", "retrieval", "localization", "intervals")
         parts = [(radius, score(part)) for radius, part in grown]
         report["growth"] = [{"radius_m": radius} | {name: part[name] for name in names} for radius, part in parts]
-    # Through JSON, so that the returned report equals the written one.
-    return dict(json.loads(json.dumps(report)))
+    return report

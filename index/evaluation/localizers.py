@@ -57,13 +57,7 @@ def posterior_of_map(
 
 
 def on_some_cells(localizer: CellLocalizer, data: MapData, rows: Ints) -> CellLocalizer:
-    """Return a localizer that knows only some of its cells.
-
-    Args:
-        localizer: a vector search or a hint posterior.
-        data: the map with these cells alone.
-        rows: of these cells in the localizer's gallery.
-    """
+    """Return a localizer that knows only the cells `rows` of its gallery; `data` has these cells alone."""
     assert isinstance(localizer, VectorLocalizer | PosteriorLocalizer)
     ranker = ranker_on_some_cells(localizer.ranker, rows)
     if isinstance(localizer, VectorLocalizer):

@@ -34,19 +34,12 @@ _EARTH = Geod(ellps="WGS84")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TextEvaluation:
-    """The answers to Q texts.
+    """The answers to Q texts."""
 
-    Attributes:
-        error_m: [Q] great-circle distance between estimate and goal; inf without an estimate.
-        radius_m: [Q, 2] p50 and p90.
-        probability: [Q] probability of the best cell.
-        hit: [Q] whether the best cell is the right one.
-    """
-
-    error_m: Floats
-    radius_m: Floats
-    probability: Floats
-    hit: npt.NDArray[np.bool_]
+    error_m: Floats  # [Q] great-circle distance to the goal; inf without an estimate
+    radius_m: Floats  # [Q, 2] p50 and p90
+    probability: Floats  # [Q] of the best cell
+    hit: npt.NDArray[np.bool_]  # [Q] whether the best cell is the right one
 
 
 def evaluate_texts(
@@ -54,18 +47,9 @@ def evaluate_texts(
 ) -> dict[str, Any]:
     """Localize texts with known positions; texts with a start get a prior of 800 m around it.
 
-    Args:
-        localizer: of an index with a georeference.
-        texts: texts with their positions.
-        report_dir: directory for told.json and told.md; None to write nothing.
-        progress: called as the work goes on.
-
-    Returns:
-        "texts", "within" {metres: share}, "median_m", "coverage" of p50 and p90 with its 95 % interval, "calibration"
-        and "by_construction" (the same of the texts that have it).
-
-    Raises:
-        DataError: the map has no georeference.
+    The report, also written as told.json and told.md, has the shares within some distances, the median error, the
+    coverage of p50 and p90 with its 95 % interval and the calibration, of all texts and by construction. Raise
+    DataError if the map has no georeference.
     """
     if not localizer.frame.is_georeferenced:
         raise DataError(
@@ -90,7 +74,7 @@ def evaluate_texts(
 
 
 def ask(localizer: Localizer, texts: Sequence[PlaceText], progress: Progress) -> TextEvaluation:
-    """Localize texts; arguments as `evaluate_texts`."""
+    """Localize texts."""
     rows = []
     for n, text in enumerate(texts):
         progress("ask", n, len(texts))
@@ -116,7 +100,6 @@ def _row(localizer: Localizer, text: PlaceText, answer: Answer) -> tuple[float, 
 
 
 def _constructions(places: PlaceReader, text: PlaceText) -> set[str]:
-    """Return which of `CONSTRUCTIONS` a text has."""
     mentions = places.read(text.text, detect_language(text.text), to_listener=text.start is not None)
     names = {name for mention in mentions for name in constructions_of(mention)}
     return names | ({"listener"} if text.start is not None and listener_wind(text.text) is not None else set())

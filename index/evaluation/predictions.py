@@ -20,35 +20,21 @@ Words = npt.NDArray[np.str_]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Predictions:
-    """Predictions for Q queries in a gallery of N cells.
+    """Predictions for Q queries in a gallery of N cells."""
 
-    Attributes:
-        facts: data, split, model and other facts for the report.
-        cell_ids, cell_scenes: [N].
-        cell_centers_m: [N, 2] float64.
-        queried_cells: [Q] row of the true best cell, -1 if the gallery has none.
-        positions_m: [Q, 2] true positions.
-        scenes, strategies: [Q] words.
-        ranked: [Q, K] rows of cells, best first; -1 where the gallery ends.
-        scores: [Q, K] float32 of them.
-        predicted_m: [Q, J] position predicted in each of the first J, [Q, J, 2] float64.
-        probability: [Q] that the first cell is the true one.
-        radius_m: [Q, 2] radii around the first prediction for probability 0.5 and 0.9; NaN if unknown.
-    """
-
-    facts: dict[str, Any]
+    facts: dict[str, Any]  # data, split, model and other facts for the report
     cell_ids: Words
-    cell_scenes: Words
-    cell_centers_m: Floats
-    queried_cells: Ints
+    cell_scenes: Words  # [N]
+    cell_centers_m: Floats  # [N, 2] float64
+    queried_cells: Ints  # [Q] row of the true best cell, -1 if the gallery has none
     positions_m: Floats
     scenes: Words
     strategies: Words
-    ranked: Ints
-    scores: Floats
-    predicted_m: Floats
-    probability: Floats
-    radius_m: Floats
+    ranked: Ints  # [Q, K] rows of cells, best first; -1 where the gallery ends
+    scores: Floats  # [Q, K] float32
+    predicted_m: Floats  # [Q, J, 2] float64, in each of the first J cells
+    probability: Floats  # [Q] that the first cell is the true one
+    radius_m: Floats  # [Q, 2] radii around the first prediction for probability 0.5 and 0.9; NaN if unknown
 
     def save(self, path: Path) -> None:
         """Write one .npz file, completely or not at all."""
@@ -58,11 +44,7 @@ class Predictions:
 
     @classmethod
     def load(cls, path: Path) -> "Predictions":
-        """Read the file that `save` wrote.
-
-        Raises:
-            DataError: the file is missing or invalid.
-        """
+        """Read the file that `save` wrote; DataError if it is missing or invalid."""
         try:
             with np.load(path, allow_pickle=False) as file:
                 arrays = {f.name: file[f.name] for f in fields(cls)}
@@ -77,28 +59,11 @@ class Predictions:
         return predictions
 
     def _check(self, path: Path) -> None:
-        """Check that the arrays fit together."""
         cells, queries = len(self.cell_ids), len(self.queried_cells)
-        lengths = {
-            "cell_scenes": (self.cell_scenes, cells),
-            "cell_centers_m": (self.cell_centers_m, cells),
-            **{
-                name: (getattr(self, name), queries)
-                for name in (
-                    "positions_m",
-                    "scenes",
-                    "strategies",
-                    "ranked",
-                    "scores",
-                    "predicted_m",
-                    "probability",
-                    "radius_m",
-                )
-            },
-        }
-        for name, (array, length) in lengths.items():
-            if len(array) != length:
-                raise DataError(f"{path}: field '{name}' has {len(array)} rows, expected {length}; evaluate again")
+        for name in (f.name for f in fields(self) if f.name != FACTS_FIELD):
+            count, expected = len(getattr(self, name)), cells if name.startswith("cell_") else queries
+            if count != expected:
+                raise DataError(f"{path}: field '{name}' has {count} rows, expected {expected}; evaluate again")
         for name in ("ranked", "queried_cells"):
             rows = getattr(self, name)
             if rows.size and not -1 <= rows.min() <= rows.max() < cells:

@@ -24,17 +24,10 @@ WITHIN_M: Final = 10.0
 
 @dataclass(slots=True)
 class Dialogue:
-    """The answers to one text after each question; the last answer counts if no question follows.
+    """The answers to one text after each question; the last answer counts if no question follows."""
 
-    Attributes:
-        error_m: of the estimate; infinite in another scene and without estimate.
-        probability: of the best cell.
-        is_ok: whether the status is "ok".
-        kinds: of the questions.
-    """
-
-    error_m: list[float] = field(default_factory=list)
-    probability: list[float] = field(default_factory=list)
+    error_m: list[float] = field(default_factory=list)  # infinite in another scene and without estimate
+    probability: list[float] = field(default_factory=list)  # of the best cell
     is_ok: list[bool] = field(default_factory=list)
     kinds: list[str] = field(default_factory=list)
 
@@ -79,20 +72,8 @@ def evaluate_questions(
 ) -> dict[str, Any]:
     """Describe random positions by two hints and answer the questions.
 
-    Args:
-        localizer: of an index of the data.
-        source: the data, for the true replies.
-        texts: number of texts.
-        seed: of positions, hints and replies.
-        progress: called as the work goes on.
-        is_plain: whether the hints have classes only, without directions and colours.
-
-    Returns:
-        "data", "texts", "seed", "after" (of 0 to QUESTIONS questions: "asked", "within_10_m", "median_m",
-        "probability", "ok") and "kinds" (how many of each were asked).
-
-    Raises:
-        DataError: the index was built from other data.
+    With `is_plain`, hints have classes only, without directions and colours. Raise DataError if the index was built
+    from other data.
     """
     if localizer.gallery.cells.ids != source.data.cells.ids:
         raise DataError("the index has other cells than the data; build the index with the same --split")

@@ -94,7 +94,6 @@ def markdown(report: dict[str, Any]) -> str:
 
 
 def _coverage_text(report: dict[str, Any]) -> str:
-    """Return a sentence about the radii, if the model has any."""
     return "".join(
         f" Its {name[1:]} % radius contains {row['true']:.1%} of the queries (median {row['median_m']:.1f} m)."
         for name, row in report.get("coverage", {}).items()
@@ -115,7 +114,6 @@ def _cells(row: dict[str, Any]) -> list[str]:
 
 
 def _recall_curve(p: Predictions) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
-    """Return recall@1, @2, ..."""
     hits = (p.ranked == p.queried_cells[:, None]) & (p.queried_cells[:, None] >= 0)
     curve: np.ndarray[tuple[int], np.dtype[np.float64]] = np.cumsum(hits.mean(axis=0))
     return curve

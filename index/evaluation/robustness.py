@@ -37,20 +37,8 @@ def robustness(
 ) -> dict[str, Any]:
     """Evaluate retriever and posterior under every trial with the same queries, and the candidates' recall.
 
-    Args:
-        data: the gallery.
-        queries: with their hints; at most MAX_QUERIES are used.
-        vectors: the retriever alone.
-        posterior: of the same gallery.
-        progress: called as the work goes on.
-
-    Returns:
-        "trials": of each "name" and, for "retriever" and "posterior", "retrieval" {k: recall}, "localization",
-        "coverage" of the radii and "calibration";
-        "candidates" {text: `candidate_recall`} for some of them.
-
-    Raises:
-        DataError: the queries have no hints.
+    At most MAX_QUERIES queries are used; DataError if they have no hints. The figures of a trial are recalls, coverage
+    of the radii and calibration.
     """
     if queries.hints is None:
         raise DataError("robustness needs the hints behind the texts; give a data set or a map with --data")
@@ -72,13 +60,8 @@ def robustness(
         damage = _damage_map(data, trial, np.random.default_rng(SEED))
         localizers = _damaged_localizers(damage, vectors, posterior) if damage else (vectors, posterior)
         trial_data = damage.data if damage else data
-        rows.append(
-            {
-                "name": trial.name,
-                "retriever": _evaluate(trial_data, described, localizers[0]),
-                "posterior": _evaluate(trial_data, described, localizers[1]),
-            }
-        )
+        retriever_scores, posterior_scores = (_evaluate(trial_data, described, each) for each in localizers)
+        rows.append({"name": trial.name, "retriever": retriever_scores, "posterior": posterior_scores})
     progress("trials", len(trials), len(trials))
     return {"trials": rows, "candidates": candidates}
 
@@ -97,21 +80,16 @@ def robustness_tables(results: dict[str, Any]) -> list[Table]:
 
 
 def _trials_table(rows: Sequence[dict[str, Any]]) -> Table:
-    """Return the table of recall@1, recall within 5, 10 and 15 m at k = 1, and the calibration of the posterior."""
     recall_head = ("retriever R@1", "posterior R@1", "retriever k=1: 5/10/15 m", "posterior k=1: 5/10/15 m")
     head = ("", *recall_head, "its 90 % radius holds", "ECE")
     table_rows = []
     for row in rows:
-        recalls = [f"{row[name]['retrieval']['1']:.3f}" for name in ("retriever", "posterior")]
-        within = [
-            "/".join(f"{v:.3f}" for v in row[name]["localization"]["1"].values()) for name in ("retriever", "posterior")
-        ]
-        posterior_scores = row["posterior"]
-        honest = (
-            posterior_scores["coverage"]["p90"]["true"],
-            posterior_scores["calibration"]["expected_calibration_error"],
-        )
-        table_rows.append((row["name"], *recalls, *within, *(f"{value:.3f}" for value in honest)))
+        both = row["retriever"], row["posterior"]
+        recalls = [f"{scores['retrieval']['1']:.3f}" for scores in both]
+        within = ["/".join(f"{v:.3f}" for v in scores["localization"]["1"].values()) for scores in both]
+        coverage = f"{row['posterior']['coverage']['p90']['true']:.3f}"
+        error = f"{row['posterior']['calibration']['expected_calibration_error']:.3f}"
+        table_rows.append((row["name"], *recalls, *within, coverage, error))
     return head, table_rows
 
 
@@ -125,15 +103,7 @@ def sample_queries(queries: Queries) -> Queries:
 def nearest_hints(
     data: MapData, positions_m: Floats, rows: Ints, around: NeighbourIndex, count: int
 ) -> list[tuple[Hint, ...]]:
-    """Return hints about the nearest objects around positions.
-
-    Args:
-        data: the map.
-        positions_m: [Q, 2] map frame.
-        rows: [Q] cell of each; -1 gives no hints.
-        around: neighbour index of the map's cells.
-        count: maximum number of hints each.
-    """
+    """Return at most `count` hints about the objects nearest to positions [Q, 2] in cells [Q]; none for cell -1."""
     hints: list[tuple[Hint, ...]] = []
     for position, cell in zip(positions_m, rows.tolist(), strict=True):
         nodes = np.arange(around.cell_starts[cell], around.cell_starts[cell + 1]) if cell >= 0 else np.empty(0, int)
@@ -158,15 +128,10 @@ def _hint(data: MapData, things: MapObjects, part: int, offset_m: Floats) -> Hin
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DamagedMap:
-    """An outdated map.
-
-    Attributes:
-        data: the map.
-        is_kept: [R] which of the original parts remain.
-    """
+    """An outdated map."""
 
     data: MapData
-    is_kept: npt.NDArray[np.bool_]
+    is_kept: npt.NDArray[np.bool_]  # [R] which of the original parts remain
 
 
 def _damage_map(data: MapData, trial: Trial, rng: np.random.Generator) -> DamagedMap | None:
@@ -197,13 +162,11 @@ def _damage_map(data: MapData, trial: Trial, rng: np.random.Generator) -> Damage
 
 
 def _kept_sampler(cells: CellTable, is_kept: npt.NDArray[np.bool_]) -> Sampler | None:
-    """Return a sampler for the remaining parts."""
     sample, starts = cells.sample, cells.parts.starts
     return sample and (lambda chosen: sample(chosen)[is_kept[ranges(starts[chosen], starts[chosen + 1])]])
 
 
 def _instance_scenes(gallery: Gallery) -> list[str]:
-    """Return the scene of each instance."""
     scenes = np.full(len(gallery.labels), "", dtype=object)
     scenes[gallery.cells.parts.instance] = np.array(gallery.cells.scenes, dtype=object)[gallery.cells.parts.cube]
     names: list[str] = scenes.tolist()
@@ -214,14 +177,13 @@ def _count_kept_parts(objects: MapObjects, parts: PartTable, is_kept: npt.NDArra
     """Return the number [P] of kept parts of each object; 0 for an instance that lost most parts."""
     if objects.are_parts:
         return is_kept.astype(np.int32)
-    kept = np.bincount(parts.instance[is_kept], minlength=len(objects.instance))
-    return np.where(2 * kept > objects.parts, kept, 0).astype(np.int32)
+    remaining = np.bincount(parts.instance[is_kept], minlength=len(objects.instance))
+    return np.where(2 * remaining > objects.parts, remaining, 0).astype(np.int32)
 
 
 def _damaged_localizers(
     damage: DamagedMap, vectors: VectorLocalizer, posterior: PosteriorLocalizer
 ) -> tuple[VectorLocalizer, PosteriorLocalizer]:
-    """Build retriever and posterior for a damaged map."""
     data, ranker = damage.data, vectors.ranker
     around = posterior.surroundings
     parts = _count_kept_parts(around.things, posterior.gallery.cells.parts, damage.is_kept)

@@ -1,5 +1,6 @@
 """From saved predictions to a report: recall by the protocol of docs/formats.md, intervals and breakdowns."""
 
+import json
 from typing import Any
 
 import numpy as np
@@ -27,11 +28,10 @@ DIGITS = 6  # the last bits of a model's output depend on the number of threads
 def score(predictions: Predictions) -> dict[str, Any]:
     """Score predictions.
 
-    Returns:
-        `Predictions.facts`, "cells", "queries", "retrieval" {k: recall}, "localization" {k: {metres: recall}}; the same
-        for the retrieved cell's centre, the true best cell's centre ("oracle") and "chance"; intervals, breakdowns,
-        error quantiles and calibration; and "places" with each query's position ("truth") and "estimate", null in
-        another scene. Keys are strings, as in JSON.
+    The report has `Predictions.facts`, "retrieval" {k: recall}, "localization" {k: {metres: recall}}; the same for the
+    retrieved cell's centre, the true best cell's centre ("oracle") and "chance"; intervals, breakdowns, error quantiles
+    and calibration; and "places" with each query's position ("truth") and "estimate", null in another scene. Keys are
+    strings, as in JSON.
     """
     p = predictions
     errors, centers = p.errors_m(), p.center_errors_m(p.ranked[:, : p.predicted_m.shape[1]])
@@ -61,11 +61,10 @@ def score(predictions: Predictions) -> dict[str, Any]:
     }
     if not np.isnan(p.radius_m).any():
         report["coverage"] = _coverage(p.radius_m, p.distances_m()[:, 0])
-    return dict(_with_text_keys(report))
+    return dict(json.loads(json.dumps(report)))
 
 
 def _coverage(radius_m: Floats, error_m: Floats) -> dict[str, Any]:
-    """Return the share of queries inside the 50 % and 90 % radii, and the median radii."""
     return {
         name: {
             "true": float((error_m <= radius_m[:, n]).mean()),
@@ -76,15 +75,7 @@ def _coverage(radius_m: Floats, error_m: Floats) -> dict[str, Any]:
 
 
 def calibration(probability: Floats, hit: npt.NDArray[np.bool_]) -> dict[str, Any]:
-    """Return the expected calibration error of a probability, over ten equal bins.
-
-    Args:
-        probability: [Q] predicted.
-        hit: [Q] whether the prediction is true.
-
-    Returns:
-        "mean_probability", "expected_calibration_error", and "bins": lower edge, queries, mean claimed, share true.
-    """
+    """Return the expected calibration error of probabilities [Q], over ten equal bins; `hit` [Q] are the outcomes."""
     bin_of = np.minimum((probability * CALIBRATION_BINS).astype(int), CALIBRATION_BINS - 1)
     bins = [
         {
@@ -143,7 +134,6 @@ def _quantiles(errors_m: Floats) -> dict[str, float | None]:
 
 
 def _chance(p: Predictions) -> dict[str, Any]:
-    """Return the expected recall of random cells."""
     total = len(p.cell_ids)
     near = np.zeros((len(p.queried_cells), len(LOCALIZATION_RADII_M)))
     for row, position in enumerate(p.positions_m):
@@ -158,10 +148,3 @@ def _chance(p: Predictions) -> dict[str, Any]:
             for k in LOCALIZATION_KS
         },
     }
-
-
-def _with_text_keys(value: Any) -> Any:
-    """Return a value as JSON would give it back: keys are strings, tuples lists."""
-    if isinstance(value, dict):
-        return {str(key): _with_text_keys(item) for key, item in value.items()}
-    return [_with_text_keys(item) for item in value] if isinstance(value, (list, tuple)) else value

@@ -1,6 +1,6 @@
 """Simulated people who answer questions from the map around them."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -32,24 +32,18 @@ WRONG_NAME_REACH_M: Final = 150.0  # nearby wrong names come from within
 
 
 class MapTruth:
-    """The true answers of a map at a position, from its geometry and names.
-
-    Args:
-        bodies: geometry of the map.
-        gallery: cells, for classes and colours.
-        palette: colour words.
-        gazetteer: names.
-    """
+    """The true answers of a map at a position, from its geometry and names."""
 
     def __init__(
         self, bodies: PointClouds | PieceGeometry, gallery: Gallery, palette: Palette, gazetteer: Gazetteer
     ) -> None:
         self._bodies, self._palette, self._gazetteer = bodies, palette, gazetteer
-        self._streets = gazetteer.by_kind.get(STREET_KIND, np.zeros(0, np.int64))
-        kinds = load_question_classes().kinds
-        known = [n for n in gazetteer.named if gazetteer.objects[n].kinds[0].startswith(kinds)]
-        self._places = np.array(known, np.int64)
-        self._houses = np.array([n for n, w in enumerate(gazetteer.objects) if w.street and w.numbers], np.int64)
+        kinds, objects = load_question_classes().kinds, gazetteer.objects
+        self._objects = {  # that people know by name, by kind of question
+            "street": gazetteer.by_kind.get(STREET_KIND, np.zeros(0, np.int64)),
+            "name": np.array([n for n in gazetteer.named if objects[n].kinds[0].startswith(kinds)], np.int64),
+            "address": np.array([n for n, w in enumerate(objects) if w.street and w.numbers], np.int64),
+        }
         parts = gallery.cells.parts
         instance, first = np.unique(bodies.instances_of_parts(gallery.cells), return_index=True)
         self._rgb = dict(zip(instance.tolist(), parts.rgb[first], strict=True))
@@ -73,36 +67,19 @@ class MapTruth:
         """Return the word for an instance's colour; None if unknown."""
         return self._palette.word(self._rgb[instance])
 
-    @property
-    def street_names(self) -> Sequence[str]:
-        """Return the names of all streets."""
-        return [self._name(n) for n in self._streets.tolist()]
+    def names(self, kind: str) -> list[str]:
+        """Return all names of a kind: "street", "name" (of a well-known place) or "address"."""
+        return [self._name(kind, n) for n in self._objects[kind].tolist()]
 
-    @property
-    def place_names(self) -> Sequence[str]:
-        """Return the names of all places that people know by name."""
-        return [self._name(n) for n in self._places.tolist()]
-
-    @property
-    def house_names(self) -> Sequence[str]:
-        """Return number and street of all houses."""
-        return [self._address(n) for n in self._houses.tolist()]
-
-    def houses(self, position: Floats, reach_m: float) -> list[tuple[float, str]]:
-        """Return distances and addresses of the houses near a position, nearest first."""
-        return self._near(position, self._houses, reach_m, self._address)
-
-    def streets(self, position: Floats, reach_m: float) -> list[tuple[float, str]]:
-        """Return distances and names of the streets near a position, nearest first."""
-        return self._near(position, self._streets, reach_m)
-
-    def places(self, position: Floats, reach_m: float) -> list[tuple[float, str]]:
-        """Return distances and names of the well-known places near a position, nearest first."""
-        return self._near(position, self._places, reach_m)
+    def names_near(self, kind: str, position: Floats, reach_m: float) -> list[tuple[float, str]]:
+        """Return distances and names of a kind near a position, nearest first."""
+        ways = self._ways(position, self._objects[kind], reach_m)
+        names = [self._name(kind, n) for n in self._objects[kind][ways.target].tolist()]
+        return sorted(zip(ways.distance_m.tolist(), names, strict=True))
 
     def crossing(self, position: Floats, street: str) -> list[tuple[float, str]]:
         """Return distances along a street to its cross streets, and their names, nearest first."""
-        one = np.array([n for n in self._streets if self._gazetteer.objects[n].names[0] == street], np.int64)
+        one = np.array([n for n in self._objects["street"] if self._gazetteer.objects[n].names[0] == street], np.int64)
         foot = position + self._ways(position, one, STREET_REACH_M).offset_m[0]
         crossings = []
         for pair, corner_m in zip(self._gazetteer.corner_streets, self._gazetteer.corners_m, strict=True):
@@ -111,19 +88,9 @@ class MapTruth:
                 crossings.append((float(np.hypot(*(corner_m - foot))), self._gazetteer.objects[other].names[0]))
         return sorted(crossings)
 
-    def _near(
-        self, position: Floats, objects: Ints, reach_m: float, called: Callable[[int], str] | None = None
-    ) -> list[tuple[float, str]]:
-        ways = self._ways(position, objects, reach_m)
-        items = objects[ways.target].tolist()
-        return sorted(zip(ways.distance_m.tolist(), map(called or self._name, items), strict=True))
-
-    def _name(self, number: int) -> str:
-        return self._gazetteer.objects[number].names[0]
-
-    def _address(self, number: int) -> str:
+    def _name(self, kind: str, number: int) -> str:
         words = self._gazetteer.objects[number]
-        return f"{words.numbers[0]} {words.street}"
+        return f"{words.numbers[0]} {words.street}" if kind == "address" else words.names[0]
 
     def _ways(self, position: Floats, objects: Ints, reach_m: float) -> ClosestPoints:
         return find_closest_points(
@@ -135,14 +102,7 @@ class MapTruth:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SimulatedPerson:
-    """A simulated person at a position.
-
-    Attributes:
-        truth: true answers of the map.
-        scene: number of the scene.
-        position_m: [2].
-        rng: source of errors.
-    """
+    """A simulated person at a position [2] in a numbered scene."""
 
     truth: MapTruth
     scene: int
@@ -178,32 +138,28 @@ class SimulatedPerson:
         """Return a wrong reply; half of the wrong names are from nearby, the others from anywhere."""
         values: Sequence[str] = spec.values
         if spec.is_open:
-            near, values = self.truth.streets, self.truth.street_names
-            if spec.kind == "name":
-                near, values = self.truth.places, self.truth.place_names
-            elif spec.kind == "address":
-                near, values = self.truth.houses, self.truth.house_names
-            nearby = [name for _, name in near(self.position_m, WRONG_NAME_REACH_M) if name != right]
-            values = nearby if nearby and self.rng.random() < 0.5 else values
+            kind = "street" if spec.kind == "corner" else spec.kind
+            near = self.truth.names_near(kind, self.position_m, WRONG_NAME_REACH_M)
+            nearby = [name for _, name in near if name != right]
+            values = nearby if nearby and self.rng.random() < 0.5 else self.truth.names(kind)
         others = [value for value in values if value != right]
         return str(self.rng.choice(others)) if others else right
 
     def _street(self) -> str | None:
-        return self._one_of_alike(self.truth.streets(self.position_m, STREET_REACH_M))
+        return self._one_of_alike(self.truth.names_near("street", self.position_m, STREET_REACH_M))
 
     def _place(self) -> str | None:
         """Return a name that the person can read, preferring near signs."""
-        visible = self.truth.places(self.position_m, SIGN_REACH_M * self._idea())
+        visible = self.truth.names_near("name", self.position_m, SIGN_REACH_M * self._idea())
         if not visible:
             return None
         weight = np.array([1 / (metres + SIGN_HALF_WEIGHT_M) for metres, _ in visible])
         return visible[int(self.rng.choice(len(visible), p=weight / weight.sum()))][1]
 
     def _house(self) -> str | None:
-        """Return the house that seems nearest among readable numbers."""
         visible = [
             (metres * self._idea(), name)
-            for metres, name in self.truth.houses(self.position_m, SIGN_REACH_M * self._idea())
+            for metres, name in self.truth.names_near("address", self.position_m, SIGN_REACH_M * self._idea())
         ]
         return min(visible)[1] if visible else None
 

@@ -20,19 +20,12 @@ Change = Callable[[tuple[Hint, ...], np.random.Generator], tuple[Hint, ...]]
 
 @dataclass(frozen=True, slots=True)
 class Trial:
-    """One trial.
-
-    Attributes:
-        name: for the table.
-        say: turns a query's hints into sentences.
-        hints: number of nearest objects to describe instead of the query's own hints.
-        dropped, relabelled: shares of the map's instances that are missing, or have a wrong label.
-    """
+    """One trial."""
 
     name: str
-    say: Say
-    hints: int | None = None
-    dropped: float = 0.0
+    say: Say  # turns a query's hints into sentences
+    hints: int | None = None  # number of nearest objects to describe instead of the query's own hints
+    dropped: float = 0.0  # shares of the map's instances that are missing, or have a wrong label
     relabelled: float = 0.0
 
 

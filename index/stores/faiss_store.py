@@ -18,13 +18,8 @@ from models.memory import drop_pages
 # alone, so its scores do not depend on the other queries.
 QUERIES_PER_CALL: Final = 16
 MAX_FLOAT_VECTORS: Final = 20_000  # larger stores have 8 bits per number, a quarter of the size
-MAX_FLAT_VECTORS: Final = (
-    200_000  # vectors; more of them are put into lists of like ones, and only the nearest lists are searched
-)
-IVF_LISTS, IVF_PROBES = (
-    1024,
-    32,
-)  # measured: finds .99 of the best 100 in a fiftieth of the time
+MAX_FLAT_VECTORS: Final = 200_000  # more are put into lists of similar ones, of which the nearest are searched
+IVF_LISTS, IVF_PROBES = 1024, 32  # measured: finds .99 of the best 100 in a fiftieth of the time
 MAX_PROBED_K: Final = 1000  # searches for more vectors use all lists
 TRAINING_VECTORS_PER_LIST: Final = 64
 VECTORS_PER_BLOCK: Final = 2**16  # bounds memory; FAISS fills lists in blocks of the same size
@@ -34,11 +29,8 @@ QUANTIZERS: Final = {8: faiss.ScalarQuantizer.QT_8bit, 16: faiss.ScalarQuantizer
 class FaissStore:
     """Inner-product search: exact in small stores, quantized and in inverted lists in large ones.
 
-    IndexFlatIP; from `EXACT` on IndexScalarQuantizer, from `MANY` on IndexIVFScalarQuantizer with the same 8 bits.
-
-    Args:
-        index: a FAISS index.
-        positions_m: [N, 2] centres of the cells, map metres; None if `within` is not used.
+    IndexFlatIP; over MAX_FLOAT_VECTORS IndexScalarQuantizer, over MAX_FLAT_VECTORS IndexIVFScalarQuantizer with the
+    same 8 bits. The centres [N, 2] of the cells, map metres, are needed only for `within`.
     """
 
     def __init__(self, index: Any, positions_m: npt.NDArray[np.floating[Any]] | None = None) -> None:
@@ -53,13 +45,7 @@ class FaissStore:
         positions_m: npt.NDArray[np.floating[Any]] | None = None,
         bits: int | None = None,
     ) -> "FaissStore":
-        """Build a store of vectors [N, D].
-
-        Args:
-            vectors: float32.
-            positions_m: as in the class.
-            bits: per number, 32, 16 or 8; None chooses by the number of vectors.
-        """
+        """Build a store of vectors [N, D], float32, with 32, 16 or 8 bits per number."""
         dim, bits = vectors.shape[1], bits or (8 if len(vectors) > MAX_FLOAT_VECTORS else 32)
         index: Any = faiss.IndexFlatIP(dim)
         if bits in QUANTIZERS:
@@ -73,11 +59,7 @@ class FaissStore:
 
     @classmethod
     def load(cls, path: Path, positions_m: npt.NDArray[np.floating[Any]] | None = None) -> "FaissStore":
-        """Open a store; its vectors stay in the file until they are used.
-
-        Raises:
-            IndexBroken: the file is not an index of this kind.
-        """
+        """Open a store, whose vectors stay in the file until they are used; or raise IndexBroken."""
         try:
             index = faiss.read_index(str(path), faiss.IO_FLAG_MMAP_IFC)
         except RuntimeError as error:
@@ -118,7 +100,6 @@ class FaissStore:
         return kinds.SearchParameters(**of_rows) if of_rows else None
 
     def _inside(self, within: Box) -> npt.NDArray[np.bool_]:
-        """Return which cells [N] are in a box."""
         assert self._positions_m is not None, "a store without positions cannot search within a box"
         x, y = self._positions_m.T
         return np.asarray((x >= within.west) & (x <= within.east) & (y >= within.south) & (y <= within.north))
@@ -168,11 +149,8 @@ def _build_lists(vectors: Floats, flat: Any) -> Any:
     for block in _blocks(vectors):
         block_lists = list_of[row : row + len(block)]
         order = np.argsort(block_lists, kind="stable")
-        ids, codes, ends = (
-            row + order,
-            flat.sa_encode(block)[order],
-            np.cumsum(np.bincount(block_lists, minlength=IVF_LISTS)),
-        )
+        ids, codes = row + order, flat.sa_encode(block)[order]
+        ends = np.cumsum(np.bincount(block_lists, minlength=IVF_LISTS))
         for number, (first, last) in enumerate(pairwise([0, *ends.tolist()])):
             of_list = kinds.swig_ptr(ids[first:last]), kinds.swig_ptr(codes[first:last])
             lists.update_entries(number, int(filled[number]), last - first, *of_list)

@@ -13,19 +13,14 @@ if TYPE_CHECKING:
 URI: Final = "HEREABOUTS_MILVUS_URI"
 TOKEN: Final = "HEREABOUTS_MILVUS_TOKEN"
 CONNECT_TIMEOUT_S: Final = 2.0
-CALL_TIMEOUT_S: Final = (
-    3.0  # pymilvus tries again until then where a server was lost or is busy, after longer and longer waits
-)
+CALL_TIMEOUT_S: Final = 3.0  # until then, pymilvus retries if the server is lost or busy
 
 
 class MilvusConnection:
-    """Calls to the Milvus server that HEREABOUTS_MILVUS_URI names (http://host:port/database).
+    """Calls to the Milvus server that HEREABOUTS_MILVUS_URI names (http://host:port/database), or StoreUnavailable.
 
-    It connects at the first call. gRPC channels do not survive a fork, so a process must not
-    call before it forks workers. After a failed call it reconnects, and so finds a restarted server.
-
-    Raises:
-        StoreUnavailable: pymilvus is not installed, or HEREABOUTS_MILVUS_URI is not set.
+    It connects at the first call. gRPC channels do not survive a fork, so a process must not call before it forks
+    workers. After a failed call it reconnects, and so finds a restarted server.
     """
 
     def __init__(self) -> None:
@@ -37,11 +32,7 @@ class MilvusConnection:
         self._pid = 0
 
     def call(self, method: str, *arguments: Any, timeout_s: float = CALL_TIMEOUT_S, **named: Any) -> Any:
-        """Call a method of pymilvus's MilvusClient.
-
-        Raises:
-            StoreUnavailable: Milvus does not answer in time, or refuses the call.
-        """
+        """Call a method of pymilvus's MilvusClient; StoreUnavailable if Milvus refuses or does not answer in time."""
         from grpc import RpcError  # noqa: PLC0415  # an extra, which few have
         from pymilvus import MilvusException  # noqa: PLC0415
 

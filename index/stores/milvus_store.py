@@ -29,16 +29,7 @@ def collection_name(version: str) -> str:
 
 
 class MilvusStore:
-    """Exact search (FLAT) in a collection; it connects at the first search.
-
-    Args:
-        collection: name of the collection.
-        dim: dimension of the vectors.
-        rows: number of vectors.
-
-    Raises:
-        StoreUnavailable: pymilvus is not installed, or HEREABOUTS_MILVUS_URI is not set.
-    """
+    """Exact search (FLAT) in a collection; it connects at the first search. All calls may raise StoreUnavailable."""
 
     def __init__(self, collection: str, dim: int, rows: int) -> None:
         self.collection, self.dim, self._rows = collection, dim, rows
@@ -49,17 +40,7 @@ class MilvusStore:
     def create(
         cls, version: str, vectors: Floats, positions_m: npt.NDArray[np.floating[Any]], regions: Sequence[str]
     ) -> Iterator["MilvusStore"]:
-        """Write a version's collection; it is dropped again if the block raises.
-
-        Args:
-            version: of the index.
-            vectors: [N, D].
-            positions_m: [N, 2] centres of the cells, map metres.
-            regions: N names of the scenes of the cells.
-
-        Raises:
-            StoreUnavailable: Milvus does not answer, or refuses.
-        """
+        """Write a version's collection of vectors [N, D] of cells with centres [N, 2]; drop it if the block raises."""
         store = cls(collection_name(version), vectors.shape[1], len(vectors))
         try:
             store._write(version, vectors, positions_m, regions)
@@ -164,12 +145,7 @@ class MilvusStore:
         return vectors[back]
 
     def check(self) -> None:
-        """Check that the collection exists and has the expected number of rows.
-
-        Raises:
-            IndexBroken: it does not.
-            StoreUnavailable: Milvus does not answer.
-        """
+        """Raise IndexBroken unless the collection exists and has the expected number of rows."""
         if not self._milvus.call("has_collection", self.collection):
             raise IndexBroken(f"Milvus has no collection {self.collection}; build it again with 'hereabouts index'")
         count = ["count(*)"]
@@ -183,11 +159,7 @@ class MilvusStore:
             )
 
     def move_alias(self, alias: str) -> None:
-        """Point Milvus's alias to this collection, for people who look into Milvus itself.
-
-        Raises:
-            StoreUnavailable: Milvus does not answer, or refuses.
-        """
+        """Point Milvus's alias to this collection, for people who look into Milvus itself."""
         name = ALIAS_FORMAT.format(alias)
         try:
             self._milvus.call("alter_alias", self.collection, name)
@@ -195,11 +167,7 @@ class MilvusStore:
             self._milvus.call("create_alias", self.collection, name)
 
     def drop(self) -> None:
-        """Drop the collection, if it exists.
-
-        Raises:
-            StoreUnavailable: Milvus does not answer, or refuses.
-        """
+        """Drop the collection, if it exists."""
         self._milvus.call("drop_collection", self.collection)
 
     def close(self) -> None:

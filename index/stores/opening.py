@@ -13,16 +13,9 @@ VECTORS_FILE: Final = "vectors.faiss"
 
 
 def open_store(directory: Path, manifest: Manifest, center_m: Floats) -> VectorStore:
-    """Open the store that a version's manifest names, without connecting to Milvus.
+    """Open the store that a version's manifest names, of cells with centres [N, 2], without connecting to Milvus.
 
-    Args:
-        directory: of the version.
-        manifest: its manifest.
-        center_m: [N, 2 or 3] centres of its cells, map metres.
-
-    Raises:
-        IndexBroken: the vector file cannot be read.
-        StoreUnavailable: the vectors are in Milvus, and pymilvus is missing or HEREABOUTS_MILVUS_URI is not set.
+    Raise IndexBroken, or StoreUnavailable if pymilvus is missing or HEREABOUTS_MILVUS_URI is not set.
     """
     if manifest.collection is not None:
         return MilvusStore(manifest.collection, manifest.dim, manifest.cells)

@@ -19,28 +19,20 @@ class VectorStore(Protocol):
     def __len__(self) -> int: ...
 
     def search(self, queries: Floats, k: int, within: Box | None = None) -> tuple[Floats, Rows]:
-        """Return the k best cells of each query.
+        """Return scores [Q, k] and rows [Q, k] of the k best cells of queries [Q, D], equal scores by row.
 
-        Args:
-            queries: [Q, D] finite.
-            k: number of cells; cut to the number of cells in the store or inside `within`.
-            within: box for the cells' centres, map metres, edges included; None for no box.
-
-        Returns:
-            Scores [Q, k] and rows [Q, k], best first, equal scores by row. Which cells are left
-            out of those that tie with the last one is up to the store.
-
-        Raises:
-            StoreUnavailable: the store is remote and does not answer.
+        `within` is a box for the cells' centres, map metres, edges included. k is cut to the number of cells in the
+        store or in the box. Which cells are left out of those that tie with the last one is up to the store. Remote
+        stores raise StoreUnavailable.
         """
         ...
 
     def score(self, query: Floats, rows: Rows) -> Floats:
-        """Return exact scores [R] of one query [D] with rows [R]; raises as `search`."""
+        """Return exact scores [R] of one query [D] with rows [R]."""
         ...
 
     def vectors(self, rows: npt.NDArray[np.integer[Any]]) -> Floats:
-        """Return the vectors [R, D] of rows [R]; raises as `search`."""
+        """Return the vectors [R, D] of rows [R]."""
         ...
 
 

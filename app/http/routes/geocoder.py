@@ -98,7 +98,6 @@ def _respond(content: Any, form: Format) -> Response:
 
 
 def _georeferenced_frame(queue: InferenceQueue) -> Frame:
-    """Return the frame of an index; 406 if the map has no georeference."""
     frame = queue.localizer.frame
     if not frame.is_georeferenced:
         raise Problem(Code.NO_GEOREFERENCE, "This map has no latitude and longitude; use POST /localize.")

@@ -86,7 +86,6 @@ def _origin(
 
 
 def _common_fields(response: type[BaseModel], source: object) -> dict[str, Any]:
-    """Return the fields of a response that an object of the localizer has too."""
     return {name: getattr(source, name) for name in response.model_fields if hasattr(source, name)}
 
 

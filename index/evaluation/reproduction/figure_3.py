@@ -26,12 +26,6 @@ def draw_figure_3(data: MapData, queries: Queries, localizer: VectorLocalizer, p
 
     The true cell has a green frame. The star is the predicted position, the cross the true one if the cell contains it.
     The title has the error, or "other scene".
-
-    Args:
-        data: the gallery.
-        queries: some of them are drawn.
-        localizer: of the gallery.
-        path: the PNG file.
     """
     rows = np.random.default_rng(SEED).choice(len(queries), min(QUERIES_SHOWN, len(queries)), replace=False)
     asked_queries = [Query(description=" ".join(queries.sentences[q]), top_k=CELLS_SHOWN) for q in rows]
@@ -80,7 +74,6 @@ def _draw_cell(axes: Axes, data: MapData, cell: int, frame: str = "black") -> No
 
 
 def _mark_truth(axes: Axes, position_m: "np.ndarray[tuple[int], np.dtype[np.float64]]") -> None:
-    """Draw a cross at the true position, if the cell contains it."""
     (west, east), (south, north) = axes.get_xlim(), axes.get_ylim()
     if west <= position_m[0] <= east and south <= position_m[1] <= north:
         axes.plot(*position_m, marker="x", ms=9, mew=2, color="black")

@@ -55,16 +55,7 @@ RANKING_RUNS = [apply_variant(MNCL, variant) for variant in VARIANTS]
 
 @dataclass(frozen=True, slots=True)
 class ReproductionJob:
-    """A training, its data and its directory.
-
-    Attributes:
-        run: the training.
-        seed: of all random numbers.
-        data: a data set.
-        out: directory of all jobs.
-        scale: the amount of training.
-        key: hash of everything that the result depends on.
-    """
+    """A training, its data and its directory; `key` is the hash of everything that the result depends on."""
 
     run: TrainingRun
     seed: int
@@ -110,11 +101,7 @@ class ReproductionJob:
 
 
 def run_settings(run: TrainingRun, seed: int, scale: TrainingScale, also: tuple[str, ...] = ()) -> tuple[Any, Any]:
-    """Return the settings of a run, as `load_settings`.
-
-    Raises:
-        TrainingError: the settings are invalid.
-    """
+    """Return the settings of a run, as `load_settings`."""
     of_method = scale.points if run.method == POINTS else scale.fine if run.method in FINE_METHODS else scale.retriever
     return load_settings(run.method, [*of_method, *run.settings, f"training.seed={seed}", *also])
 
@@ -141,12 +128,7 @@ def _read_result(path: Path, key: str) -> dict[str, Any] | None:
 
 
 def train_and_measure(job: ReproductionJob, gpu: int | None) -> None:
-    """Train and measure a job; results of other settings are removed.
-
-    Args:
-        job: the job.
-        gpu: number of the GPU for the devices "auto" and "cuda"; None if there is none.
-    """
+    """Train and measure a job; results of other settings are removed. `gpu` serves the devices "auto" and "cuda"."""
     torch.set_num_threads(1)  # so that weights do not depend on the number of processors
     if gpu is not None:
         torch.cuda.set_device(gpu)
@@ -184,7 +166,6 @@ def train_and_measure(job: ReproductionJob, gpu: int | None) -> None:
 
 
 def _report_settings(model: Any, config: Any) -> dict[str, Any]:
-    """Return the settings that the report repeats."""
     settings = {name: getattr(model, name) for name in ("text_encoder", "width") if hasattr(model, name)}
     names = ("steps", "batch_size", "learning_rate", "schedule", "cluster", "wording", "patience")
     return settings | {name: getattr(config, name) for name in names}
@@ -196,7 +177,6 @@ def _training_record(weights: Path) -> dict[str, Any]:
 
 
 def _costs(job: ReproductionJob) -> dict[str, float]:
-    """Return throughput, time to the best epoch and in total, steps, and memory."""
     rows = np.genfromtxt(job.directory / RUN_DIR / METRICS_FILE, delimiter=",", names=True, ndmin=1)
     best = rows[rows[_criterion(job.run)].argmax()]
     return {
@@ -255,13 +235,7 @@ def _rankings(retriever: Retriever, data: Path) -> dict[str, dict[str, float]]:
 
 
 def localize(job: ReproductionJob, fine_job: ReproductionJob, draw: bool) -> None:
-    """Measure localization with a fine stage on test and validation scenes, and save it with the retriever's result.
-
-    Args:
-        job: of the retriever, done.
-        fine_job: of the fine stage, done.
-        draw: whether to draw figure 3.
-    """
+    """Measure localization with a fine stage on test and validation scenes, and save it with the retriever's result."""
     torch.set_num_threads(1)
     retriever, refiner = load_retriever(job.directory / WEIGHTS_DIR), load_fine(fine_job.directory / WEIGHTS_DIR)
     result = {}

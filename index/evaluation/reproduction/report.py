@@ -26,14 +26,7 @@ Numbers = np.ndarray[Any, np.dtype[np.float64]]
 
 
 def write_reproduction(directory: Path, results: Results, name: str, figure_3: Path | None = None) -> None:
-    """Write results.json, report.md and the figures.
-
-    Args:
-        directory: created if missing.
-        results: of `index.evaluation.reproduction.reproduce.reproduce`.
-        name: of the data.
-        figure_3: the picture of a job, if there is one.
-    """
+    """Write results.json, report.md and the figures; `figure_3` is the picture of a job, if there is one."""
     directory.mkdir(parents=True, exist_ok=True)
     for n in (3, 4, 5):
         (directory / f"figure{n}.png").unlink(missing_ok=True)  # of an earlier report
@@ -84,7 +77,6 @@ def markdown(results: Results, name: str) -> str:
 
 
 def _head(results: Results) -> list[str]:
-    """Return the paragraphs about data, training and the published figures."""
     data, seeds, runs = results["data"], results["seeds"], results["runs"]
     exact = ", ".join(f"R@{k} {value:.3f}" for k, value in data["exact_matching"].items())
     spread = "mean ± standard deviation over them; figure 4 shows the first" if len(seeds) > 1 else "one run each"
@@ -102,7 +94,6 @@ def _head(results: Results) -> list[str]:
 
 
 def _settings_table(results: Results) -> Table:
-    """Return the table of training settings."""
     rows: dict[tuple[str, ...], list[str]] = {}
     for name, by_seed in results["runs"].items():
         settings = by_seed[0]["settings"]

@@ -29,11 +29,7 @@ EPOCHS_PER_HALVING = 5  # after which the papers halve the learning rate
 
 
 def scale_in_epochs(scale: TrainingScale, data: Path, epochs: int) -> TrainingScale:
-    """Return a scale of some epochs that validates after each and halves its rate as the papers do.
-
-    Raises:
-        DataError: the data cannot be read.
-    """
+    """Return a scale of some epochs that validates after each and halves its rate as the papers do."""
     positions = len(open_source(data, "train").queries())
     parts = {}
     for part, method in (("retriever", "mncl"), ("fine", "regressor")):
@@ -47,11 +43,7 @@ def scale_in_epochs(scale: TrainingScale, data: Path, epochs: int) -> TrainingSc
 
 
 def choose_experiments(keys: str | None) -> tuple[Experiment, ...]:
-    """Return experiments by their keys, such as "1,2,4a"; all of them for None.
-
-    Raises:
-        DataError: a key is unknown.
-    """
+    """Return experiments by their keys, such as "1,2,4a"; all of them for None. DataError if a key is unknown."""
     wanted = list(EXPERIMENTS) if keys is None else [key.strip() for key in keys.split(",")]
     if unknown := [key for key in wanted if key not in EXPERIMENTS]:
         raise DataError(f"--tables {unknown[0]}: unknown; choose from {', '.join(EXPERIMENTS)}")
@@ -69,20 +61,8 @@ def reproduce(
 ) -> dict[str, Any]:
     """Train and measure what is missing, and collect the results.
 
-    Args:
-        data: a directory in KITTI360Pose's layout or a converted store, with train, val and test scenes.
-        out: directory of the runs; matching runs of an earlier call are kept.
-        scale: the amount of training.
-        seeds: of the trainings; figures use the first only, tables use all.
-        workers: parallel trainings; GPUs are used in turn.
-        progress: called as the work goes on.
-        experiments: tables and figures to make.
-
-    Returns:
-        "seeds", "data", "experiments", and "runs": for each run's name its results, one a seed.
-
-    Raises:
-        DataError: the data cannot be read.
+    Runs of an earlier call that match are kept. Figures use the first seed only, tables use all. Parallel trainings use
+    the GPUs in turn. "runs" has the results of each run's name, one per seed.
     """
     jobs = [
         ReproductionJob.build(run, seed, data, out, scale)
@@ -111,7 +91,6 @@ def reproduce(
 
 
 def _train(stage: str, jobs: Sequence[ReproductionJob], workers: int, progress: Progress) -> None:
-    """Run the jobs that are not done."""
     missing = [job for job in jobs if job.result() is None]
     for done in _run_in_processes(train_and_measure, [(job, _gpu(n)) for n, job in enumerate(missing)], workers):
         progress(stage, len(jobs) - len(missing) + done, len(jobs))
@@ -143,7 +122,6 @@ def figure_3_path(
 
 
 def _gpu(n: int) -> int | None:
-    """Return the GPU of the n-th job; None without any."""
     return n % torch.cuda.device_count() if torch.cuda.is_available() else None
 
 
@@ -162,7 +140,6 @@ def _run_in_processes(work: Callable[..., None], tasks: Sequence[tuple[Any, ...]
 
 
 def _test_scene_facts(data: Path) -> dict[str, Any]:
-    """Return size and exact matching of the test scenes."""
     source = open_source(data, TEST)
     queries = source.queries()
     assert queries.hints is not None

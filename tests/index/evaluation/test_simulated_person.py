@@ -44,7 +44,7 @@ def test_the_truth_is_that_of_the_map(truth, city, data_and_queries, sure, label
 
 
 def test_people_name_the_street_they_are_on(truth, data_and_queries, sure) -> None:
-    near = [(truth.streets(position, 40.0), position) for position in data_and_queries[1].positions_m[:60]]
+    near = [(truth.names_near("street", position, 40.0), position) for position in data_and_queries[1].positions_m[:60]]
     position, name = next(
         (point, near_streets[0][1])
         for near_streets, point in near
