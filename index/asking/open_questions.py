@@ -32,10 +32,7 @@ class OpenQuestions:
         return self._landmarks.has_corners if kind == "corner" else len(self._name_index(kind)) > 0
 
     def answered(self, replies: Sequence[Reply]) -> Floats | None:
-        """Return log p(replied names
-
-        cell) of cells [N]; None without a name, ReplyError if the map lacks one.
-        """
+        """Return log p(replied names | cell) of cells [N]; None without a name, ReplyError if the map lacks one."""
         total, street = None, self._street_columns(replies)
         for number, reply in enumerate(replies):
             names = self._named_columns(number, reply)
