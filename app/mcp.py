@@ -9,7 +9,7 @@ from pydantic import BaseModel, Field
 from app.client import AsyncClient, ServiceError
 from app.http.formats.nominatim import distinct_positions
 from app.http.schemas.responses import LocalizeResponse
-from index.answering.answers import Candidate, Evidence, Question
+from index.answering.answers import Candidate, Estimate, Evidence, Question
 
 INSTRUCTIONS: Final = """Finds where in a city a person is from a description of what is around them.
 Call `localize` with the person's words. If the position is uncertain, the result has a question: ask the person (or
@@ -89,10 +89,7 @@ def build_server(client: AsyncClient) -> MCPServer[Any]:
 
     @server.tool()
     async def ask(
-        description: str,
-        answers: dict[str, str],
-        near: tuple[float, float] | None = None,
-        near_m: float = 500.0,
+        description: str, answers: dict[str, str], near: tuple[float, float] | None = None, near_m: float = 500.0
     ) -> LocatedPerson:
         """Continue after `localize` with answers to all questions so far; returns the next question, if any.
 
@@ -125,21 +122,12 @@ def build_server(client: AsyncClient) -> MCPServer[Any]:
 def agent_answer(answer: LocalizeResponse) -> LocatedPerson:
     """Convert an answer of the service for an agent."""
     best, radius_m = None, None
+    places: list[Estimate | Candidate] = [*answer.candidates]
     if answer.estimate is not None:
-        wgs84, (x, y) = answer.estimate.wgs84, answer.estimate.position
-        best = PossiblePlace(
-            place=answer.estimate.place,
-            lat=wgs84 and wgs84.lat,
-            lon=wgs84 and wgs84.lon,
-            x=x,
-            y=y,
-            probability=answer.estimate.probability,
-        )
-        radius_m = answer.estimate.radius_m.p90
-    positions = [candidate.position for candidate in answer.candidates]
-    if answer.estimate is not None:
-        positions.insert(0, answer.estimate.position)
-    others = [_other(answer.candidates[n - 1]) for n in distinct_positions(positions)[1 : 1 + MAX_ALTERNATIVES]]
+        best, radius_m = _possible_place(answer.estimate, answer.estimate.place), answer.estimate.radius_m.p90
+        places.insert(0, answer.estimate)
+    distinct = distinct_positions([place.position for place in places])
+    others = [_possible_place(places[n]) for n in distinct[1 : 1 + MAX_ALTERNATIVES]]
     return LocatedPerson(
         status=answer.status,
         summary=_summary(answer, best, radius_m),
@@ -151,9 +139,10 @@ def agent_answer(answer: LocalizeResponse) -> LocatedPerson:
     )
 
 
-def _other(candidate: Candidate) -> PossiblePlace:
-    wgs84, (x, y) = candidate.wgs84, candidate.position
-    return PossiblePlace(lat=wgs84 and wgs84.lat, lon=wgs84 and wgs84.lon, x=x, y=y, probability=candidate.probability)
+def _possible_place(answer: Estimate | Candidate, place: str | None = None) -> PossiblePlace:
+    wgs84, (x, y) = answer.wgs84, answer.position
+    lat, lon = (wgs84.lat, wgs84.lon) if wgs84 else (None, None)
+    return PossiblePlace(place=place, lat=lat, lon=lon, x=x, y=y, probability=answer.probability)
 
 
 def _summary(answer: LocalizeResponse, best: PossiblePlace | None, radius_m: float | None) -> str:

@@ -1,5 +1,4 @@
 """The command line: `main` has index, serve, verify, mcp and localize; the other modules have the other commands.
 
-`options` and `progress` are shared. May import everything; heavy imports are inside the commands, so that --help is
-fast.
+`options` and `progress` are shared. Heavy imports are inside the commands, so that --help is fast.
 """

@@ -127,18 +127,7 @@ class Code(Enum):
         return self.name.lower()
 
 
-_BY_STATUS = {
-    code.status: code
-    for code in (
-        Code.INVALID_JSON,
-        Code.NOT_FOUND,
-        Code.METHOD_NOT_ALLOWED,
-        Code.NOT_ACCEPTABLE,
-        Code.BODY_TOO_LARGE,
-        Code.UNSUPPORTED_MEDIA_TYPE,
-        Code.INVALID_REQUEST,
-    )
-}
+_FIRST_OF_STATUS = {code.status: code for code in reversed(Code)}  # for errors of Starlette itself
 
 
 class FieldError(BaseModel):
@@ -166,11 +155,7 @@ class Problem(HTTPException):
     """An error that is sent to the client."""
 
     def __init__(
-        self,
-        code: Code,
-        detail: str | None = None,
-        errors: Sequence[FieldError] = (),
-        retry_after_s: int | None = None,
+        self, code: Code, detail: str | None = None, errors: Sequence[FieldError] = (), retry_after_s: int | None = None
     ) -> None:
         retry_after_s = retry_after_s or code.retry_after_s
         headers = {} if retry_after_s is None else {"Retry-After": str(retry_after_s)}
@@ -232,7 +217,7 @@ async def _on_http_exception(request: Request, error: Exception) -> Response:
         return error.response()
     if not isinstance(error, StarletteHTTPException):
         raise error
-    problem = Problem(_BY_STATUS.get(error.status_code, Code.INTERNAL_ERROR))
+    problem = Problem(_FIRST_OF_STATUS.get(error.status_code, Code.INTERNAL_ERROR))
     problem.headers = {**(problem.headers or {}), **(error.headers or {})}
     if problem.code is Code.METHOD_NOT_ALLOWED:
         problem.headers["Allow"] = ", ".join(sorted(_methods(request)))

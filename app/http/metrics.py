@@ -29,11 +29,7 @@ class Metrics:
             "hereabouts_requests", "answered requests", ("method", "route", "status"), registry=self._registry
         )
         self._seconds = Histogram(
-            "hereabouts_request_seconds",
-            "seconds to answer",
-            ("route",),
-            buckets=BUCKETS,
-            registry=self._registry,
+            "hereabouts_request_seconds", "seconds to answer", ("route",), buckets=BUCKETS, registry=self._registry
         )
         self._registry.register(_Queues(indexes))
 

@@ -23,7 +23,7 @@ def problems(*codes: Code) -> Responses:
         status: {
             "model": ProblemBody,
             "description": "; ".join(code.title for code in alike),
-            "content": {PROBLEM_JSON: {"examples": {code.code: {"value": _example(code)} for code in alike}}},
+            "content": {PROBLEM_JSON: {"examples": {code.code: {"value": Problem(code).body()} for code in alike}}},
         }
         for status, alike in by_status.items()
     }
@@ -79,7 +79,3 @@ def _as_problem(content: dict[str, Any]) -> None:
     """Replace FastAPI's application/json and its own 422 model by problem+json."""
     del content[JSON]
     content.setdefault(PROBLEM_JSON, {})["schema"] = PROBLEM_SCHEMA
-
-
-def _example(code: Code) -> dict[str, Any]:
-    return Problem(code).body()

@@ -17,34 +17,26 @@ class LocalizerLike(Protocol):
 
     def localize(self, queries: Sequence[Query]) -> list[Answer]:
         """Return one answer per query, in order; blocks."""
-        ...
 
     def describe(self, position_m: tuple[float, float]) -> Described | None:
         """Describe the position (x, y); None off the map and where nothing is near."""
-        ...
 
     def cell(self, cell_id: str) -> CellDetail | None:
         """Return a cell of the map; None if there is no such cell."""
-        ...
 
     def cells(self, first: int, count: int) -> list[CellSummary]:
         """Return at most `count` cells from row `first`, in the map's order."""
-        ...
 
     def scenery(self, number: int) -> SceneryPart | None:
         """Return a part of the map's scenery; None if there is no such part."""
-        ...
 
     def close(self) -> None:
         """Release all resources; the localizer cannot be used afterwards."""
-        ...
 
     @property
     def frame(self) -> Frame:
         """The coordinate frame of the map."""
-        ...
 
     @property
     def facts(self) -> IndexFacts:
         """The facts in the manifest of the index."""
-        ...

@@ -22,6 +22,7 @@ from models.errors import HereaboutsError
 REFUSAL_DELAY_S = 0.2  # before a 429: clients that retry at once would take CPU time from accepted queries
 INITIAL_QUERY_S = 0.05  # assumed time of a query before the first one is answered
 UNAVAILABLE: Final = (Code.NOT_READY, Code.DRAINING, Code.LOAD_FAILED)  # problems of a queue that accepts no query
+QUERY_ERRORS: Final = (Code.INVALID_REQUEST, Code.INDEX_NOT_FOUND, Code.INTERNAL_ERROR, *UNAVAILABLE)
 QUERY_TIME_WEIGHT = 0.1  # of the latest query in the moving average
 MAX_SLOWDOWN = 4.0  # times the average; a slower query is an outlier and counts as this slow
 
@@ -70,10 +71,7 @@ class InferenceQueue:
     """
 
     def __init__(
-        self,
-        open_localizers: Callable[[], Sequence[LocalizerLike]],
-        max_queue: int,
-        max_wait_s: float = math.inf,
+        self, open_localizers: Callable[[], Sequence[LocalizerLike]], max_queue: int, max_wait_s: float = math.inf
     ) -> None:
         self._open_localizers = open_localizers
         self._max_queue = max_queue

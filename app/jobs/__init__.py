@@ -1,4 +1,4 @@
 """Evaluation jobs: `evaluation` is the work, `job` its state, `store` keeps jobs on disk, `runner` is the queue.
 
-`worker` is the process that runs one job. May import app.http for errors and requests, index and models.
+`worker` is the process that runs one job.
 """

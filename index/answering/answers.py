@@ -141,10 +141,7 @@ class Evidence:
 class HeatMap:
     """The probability distribution of the position."""
 
-    spacing_m: Annotated[
-        float,
-        Field(description="edge of the square around each point, metres"),
-    ]
+    spacing_m: Annotated[float, Field(description="edge of the square around each point, metres")]
     points: Annotated[
         tuple[tuple[float, float, float], ...], Field(description="x, y, probability; likeliest first; map frame")
     ]

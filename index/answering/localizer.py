@@ -74,11 +74,7 @@ class Localizer:
         self.ranker = Ranker.load(retriever.global_only(), directory, store)
         self.frame, self.palette = Frame(**manifest.frame.model_dump()), PALETTES[manifest.palette]
         expected = {"dim": manifest.dim, "cells": manifest.cells, "instances": manifest.instances}
-        actual = {
-            "dim": self.ranker.store.dim,
-            "cells": len(self.ranker.store),
-            "instances": len(self.gallery.labels),
-        }
+        actual = {"dim": self.ranker.store.dim, "cells": len(self.ranker.store), "instances": len(self.gallery.labels)}
         if expected != actual or len(self.gallery.cells) != manifest.cells:
             raise IndexBroken(f"{directory}: the manifest says {expected}, the files contain {actual}; {ADVICE}")
         self._known_hints = load_hint_features(directory, retriever)

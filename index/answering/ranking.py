@@ -31,11 +31,7 @@ class Ranker:
 
     @classmethod
     def from_cells(
-        cls,
-        retriever: Retriever,
-        cells: CellTable,
-        labels: Sequence[str],
-        depth: int = RERANKED_CELLS,
+        cls, retriever: Retriever, cells: CellTable, labels: Sequence[str], depth: int = RERANKED_CELLS
     ) -> "Ranker":
         """Encode a gallery."""
         features = retriever.with_point_features(CellFeatures.from_cells(cells, np.array(labels)))

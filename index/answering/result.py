@@ -48,16 +48,13 @@ class CellLocalizer(Protocol):
     @property
     def method(self) -> Method:
         """Return the method that finds positions."""
-        ...
 
     @property
     def model(self) -> ModelName:
         """Return the model behind the positions."""
-        ...
 
     def find(self, queries: Sequence[Query]) -> list[LocalizerResult]:
         """Return one result per query, in order; texts are encoded in batches."""
-        ...
 
 
 def to_answer(

@@ -3,7 +3,7 @@
 import shutil
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing, contextmanager, nullcontext
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from index.answering.hint_features import save_hint_features, template_hints
@@ -134,12 +134,7 @@ def _map_fields(data: MapData) -> dict[str, object]:
     return {
         "map_name": data.name,
         "attribution": data.attribution,
-        "frame": FrameRecord(
-            frame_id=data.frame.frame_id,
-            origin_lat=data.frame.origin_lat,
-            origin_lon=data.frame.origin_lon,
-            epsg=data.frame.epsg,
-        ),
+        "frame": FrameRecord(**asdict(data.frame)),
         "palette": data.palette.name,
         "cell_size_m": data.cells.size_m,
         "grid_m": data.grid_m,

@@ -34,12 +34,12 @@ def all_trials(data: MapData) -> list[Trial]:
     words = sorted(set(data.palette.words))
     free = Wording("test")
     trials = [Trial(TEMPLATE_TEXT, _say_template)]
-    trials += [Trial(f"{n} hints", _say_random_hints(n)) for n in range(1, 6)]
+    trials += [Trial(f"{n} hints", _say_in_templates(_random_hints(n))) for n in range(1, 6)]
     trials += [
         Trial("12 hints", _say_template, hints=12),
-        Trial("one hint of six wrong", _say_one_wrong(words)),
-        Trial("two colours of six wrong", _say_wrong_colours(words, 2)),
-        Trial("hints in another order", _say_shuffled),
+        Trial("one hint of six wrong", _say_in_templates(_with_one_wrong(words))),
+        Trial("two colours of six wrong", _say_in_templates(_with_wrong_colours(words, 2))),
+        Trial("hints in another order", _say_in_templates(_random_hints(None))),
         Trial("inverse phrasing", lambda hints, _rng: tuple(render_hint(hint, INVERSE_TEMPLATE) for hint in hints)),
         Trial(FREE_WORDING, lambda hints, rng: _text_lines(_write(free, hints, rng))),
         Trial("free wording, three typos", lambda hints, rng: _text_lines(typos(_write(free, hints, rng), 3, rng))),
@@ -61,11 +61,12 @@ def _say_template(hints: tuple[Hint, ...], _rng: np.random.Generator) -> tuple[s
     return tuple(render_hint(hint) for hint in hints)
 
 
-def _say_random_hints(count: int) -> Say:
-    return lambda hints, rng: _say_template(_random_hints(count)(hints, rng), rng)
+def _say_in_templates(change: Change) -> Say:
+    return lambda hints, rng: _say_template(change(hints, rng), rng)
 
 
-def _random_hints(count: int) -> Change:
+def _random_hints(count: int | None) -> Change:
+    """Return a change that draws some hints, or all of them, in random order."""
     return lambda hints, rng: tuple(hints[i] for i in rng.permutation(len(hints))[:count])
 
 
@@ -75,14 +76,6 @@ def _without_colours(hints: tuple[Hint, ...]) -> tuple[Hint, ...]:
 
 def _say_freely(wording: Wording, change: Change) -> Say:
     return lambda hints, rng: _text_lines(_write(wording, change(hints, rng), rng))
-
-
-def _say_shuffled(hints: tuple[Hint, ...], rng: np.random.Generator) -> tuple[str, ...]:
-    return _say_template(tuple(hints[i] for i in rng.permutation(len(hints))), rng)
-
-
-def _say_one_wrong(words: Sequence[str]) -> Say:
-    return lambda hints, rng: _say_template(_with_one_wrong(words)(hints, rng), rng)
 
 
 def _with_one_wrong(words: Sequence[str]) -> Change:
@@ -99,13 +92,12 @@ def _with_one_wrong(words: Sequence[str]) -> Change:
     return change
 
 
-def _say_wrong_colours(words: Sequence[str], count: int) -> Say:
-    def say(hints: tuple[Hint, ...], rng: np.random.Generator) -> tuple[str, ...]:
+def _with_wrong_colours(words: Sequence[str], count: int) -> Change:
+    def change(hints: tuple[Hint, ...], rng: np.random.Generator) -> tuple[Hint, ...]:
         rows = set(rng.permutation(len(hints))[:count].tolist())
-        wrong = (replace(h, colour=_other_colour(words, h, rng)) if n in rows else h for n, h in enumerate(hints))
-        return _say_template(tuple(wrong), rng)
+        return tuple(replace(h, colour=_other_colour(words, h, rng)) if n in rows else h for n, h in enumerate(hints))
 
-    return say
+    return change
 
 
 def _other_colour(words: Sequence[str], hint: Hint, rng: np.random.Generator) -> str:

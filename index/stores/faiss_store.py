@@ -40,10 +40,7 @@ class FaissStore:
 
     @classmethod
     def from_vectors(
-        cls,
-        vectors: Floats,
-        positions_m: npt.NDArray[np.floating[Any]] | None = None,
-        bits: int | None = None,
+        cls, vectors: Floats, positions_m: npt.NDArray[np.floating[Any]] | None = None, bits: int | None = None
     ) -> "FaissStore":
         """Build a store of vectors [N, D], float32, with 32, 16 or 8 bits per number."""
         dim, bits = vectors.shape[1], bits or (8 if len(vectors) > MAX_FLOAT_VECTORS else 32)

@@ -25,15 +25,12 @@ class VectorStore(Protocol):
         store or in the box. Which cells are left out of those that tie with the last one is up to the store. Remote
         stores raise StoreUnavailable.
         """
-        ...
 
     def score(self, query: Floats, rows: Rows) -> Floats:
         """Return exact scores [R] of one query [D] with rows [R]."""
-        ...
 
     def vectors(self, rows: npt.NDArray[np.integer[Any]]) -> Floats:
         """Return the vectors [R, D] of rows [R]."""
-        ...
 
 
 def best_first(scores: Floats, rows: Rows, k: int) -> tuple[Floats, Rows]:

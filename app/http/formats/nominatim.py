@@ -78,27 +78,17 @@ def _place(
     }
 
 
-def format_search(results: Sequence[Place], form: Format) -> Any:
-    """Return places in a format of /search."""
+def format_places(results: Sequence[Place], form: Format) -> Any:
+    """Return places in a format of /search; /reverse has the same formats, and the place itself if it is no GeoJSON."""
     if form == "geojson":
         return {
             "type": "FeatureCollection",
             "licence": results[0]["licence"] if results else "",
             "features": [*map(_feature, results)],
         }
-    return [_json(place) if form == "json" else place for place in results]
-
-
-def format_reverse(place: Place, form: Format) -> Any:
-    """Return a place in a format of /reverse."""
-    if form == "geojson":
-        return format_search([place], form)
-    return _json(place) if form == "json" else place
-
-
-def _json(place: Place) -> Place:
-    """Rename `category` to `class`, as in Nominatim's first format."""
-    return {("class" if name == "category" else name): value for name, value in place.items()}
+    # Nominatim's first format has `class` in place of `category`.
+    renamed = {"category": "class"} if form == "json" else {}
+    return [{renamed.get(name, name): value for name, value in place.items()} for place in results]
 
 
 def _feature(place: Place) -> dict[str, Any]:

@@ -1,1 +1,1 @@
-"""The routes of the service, one module per resource. They may import whatever app.http may."""
+"""The routes of the service, one module per resource."""

@@ -54,11 +54,7 @@ router = APIRouter(tags=["localize"])
 
 
 @router.post(PATH, responses=problems(*ERRORS))
-async def batch(
-    request: Request,
-    body: BatchRequest,
-    indexes: AllIndexes,
-) -> BatchResponse:
+async def batch(request: Request, body: BatchRequest, indexes: AllIndexes) -> BatchResponse:
     """Localize several descriptions; an item that cannot be answered gets an error instead."""
     if indexes.is_draining or all(item.get("index", DEFAULT_ALIAS) == DEFAULT_ALIAS for item in body.items):
         indexes.check_accepting()

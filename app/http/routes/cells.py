@@ -14,6 +14,10 @@ from app.http.schemas.responses import CellResponse, CellsResponse, CrsOut, Prov
 from index.build.artifact import DEFAULT_ALIAS
 
 MAX_OFFSET, MAX_PAGE_CELLS = 1_000_000_000, 1000  # in cells
+ERRORS = (
+    *(Code.INDEX_NOT_FOUND, Code.INVALID_REQUEST, Code.NOT_ACCEPTABLE, Code.NO_GEOREFERENCE),
+    *(Code.INTERNAL_ERROR, Code.NOT_READY, Code.LOAD_FAILED),
+)
 router = APIRouter(tags=["map"])
 
 
@@ -23,8 +27,7 @@ router = APIRouter(tags=["map"])
     responses={
         200: geojson_content(),
         304: {"description": "The content of If-None-Match has not changed"},
-        **problems(Code.INDEX_NOT_FOUND, Code.INVALID_REQUEST, Code.NOT_ACCEPTABLE, Code.NO_GEOREFERENCE),
-        **problems(Code.INTERNAL_ERROR, Code.NOT_READY, Code.LOAD_FAILED),
+        **problems(*ERRORS),
     },
 )
 def cells(
@@ -56,16 +59,7 @@ def cells(
     responses={
         200: geojson_content(),
         304: {"description": "The content of If-None-Match has not changed"},
-        **problems(
-            Code.CELL_NOT_FOUND,
-            Code.INDEX_NOT_FOUND,
-            Code.INVALID_REQUEST,
-            Code.NOT_ACCEPTABLE,
-            Code.NO_GEOREFERENCE,
-            Code.INTERNAL_ERROR,
-            Code.NOT_READY,
-            Code.LOAD_FAILED,
-        ),
+        **problems(Code.CELL_NOT_FOUND, *ERRORS),
     },
 )
 def cell(cell_id: str, request: Request, localizer: Localizer) -> Response:

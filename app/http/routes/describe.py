@@ -10,29 +10,19 @@ from app.http.bodies import REFUSALS
 from app.http.dependencies import AllIndexes
 from app.http.errors import Code, Problem
 from app.http.openapi import problems
-from app.http.queue import UNAVAILABLE
+from app.http.queue import QUERY_ERRORS
 from app.http.routes.localize import check_reach
 from app.http.schemas.requests import DescribeRequest
 from app.http.schemas.responses import DescribeResponse
 
-ERRORS = (
-    *REFUSALS,
-    Code.INVALID_REQUEST,
-    Code.INDEX_NOT_FOUND,
-    Code.INTERNAL_ERROR,
-    *UNAVAILABLE,
-    Code.DEADLINE_EXCEEDED,
-)
+ERRORS = (*REFUSALS, *QUERY_ERRORS, Code.DEADLINE_EXCEEDED)
 NOTHING_NEARBY = "is off the map, or nothing is near it; choose a position on the map where a person can stand"
 
 router = APIRouter(tags=["localize"])
 
 
 @router.post("/describe", responses=problems(*ERRORS))
-async def describe(
-    body: DescribeRequest,
-    indexes: AllIndexes,
-) -> DescribeResponse:
+async def describe(body: DescribeRequest, indexes: AllIndexes) -> DescribeResponse:
     """Describe a position in words from which POST /localize can find it again."""
     started_s = time.monotonic()
     async with indexes.lease(body.index) as queue:

@@ -13,23 +13,14 @@ from app.http.bodies import REFUSALS
 from app.http.dependencies import AllIndexes, Jobs, SettingsNow
 from app.http.errors import Code
 from app.http.openapi import problems
-from app.http.queue import UNAVAILABLE
+from app.http.queue import QUERY_ERRORS
 from app.http.schemas.evaluate_requests import EvaluateRequest
 from app.jobs.evaluation import build_evaluation
 from app.jobs.job import FINISHED, EvaluationJob, JobState, Status
 
 PATH = "/evaluate"
 PING_S = 15  # interval of keep-alive comments on an idle event stream
-POST_ERRORS = (
-    *REFUSALS,
-    Code.INVALID_REQUEST,
-    Code.KEY_NOT_SET,
-    Code.INDEX_NOT_FOUND,
-    Code.JOBS_FULL,
-    Code.NOT_WRITABLE,
-    Code.INTERNAL_ERROR,
-    *UNAVAILABLE,
-)
+POST_ERRORS = (*REFUSALS, *QUERY_ERRORS, Code.KEY_NOT_SET, Code.JOBS_FULL, Code.NOT_WRITABLE)
 EVENT_STREAM: dict[str, Any] = {
     "description": "Server-sent events `progress`, then one of `done`, `failed`, `cancelled` and `interrupted` (the "
     "service stopped). The data of each event is the answer of GET /evaluate/{job}. A new client gets the current "
@@ -58,11 +49,7 @@ router = APIRouter(tags=["evaluate"])
 
 @router.post(PATH, status_code=202, responses=problems(*POST_ERRORS))
 async def evaluate(
-    body: EvaluateRequest,
-    response: Response,
-    indexes: AllIndexes,
-    jobs: Jobs,
-    settings: SettingsNow,
+    body: EvaluateRequest, response: Response, indexes: AllIndexes, jobs: Jobs, settings: SettingsNow
 ) -> JobAccepted:
     """Start an evaluation on your own queries or on a data set of the service."""
     queue = indexes.queue(body.index)

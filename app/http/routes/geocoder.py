@@ -13,23 +13,15 @@ from app import limits
 from app.http.dependencies import AllIndexes, IndexName
 from app.http.errors import Code, Problem
 from app.http.formats.negotiation import GEOJSON, JSON
-from app.http.formats.nominatim import NO_RESULT, Format, format_reverse, format_search, reverse_result, search_results
+from app.http.formats.nominatim import NO_RESULT, Format, format_places, reverse_result, search_results
 from app.http.openapi import geojson_content, problems
-from app.http.queue import UNAVAILABLE, InferenceQueue
-from app.http.routes.localize import check_reach, localize_for
+from app.http.queue import QUERY_ERRORS, InferenceQueue
+from app.http.routes.localize import SEARCH_ERRORS, check_reach, localize_for
 from app.http.schemas.requests import LocalizeRequest
 from index.build.artifact import DEFAULT_ALIAS
 from models.citymap.frame import Frame
 
 TWO_CORNERS: Final = "must be lon,lat,lon,lat: two corners, longitudes -180..180, latitudes -90..90"
-REVERSE_ERRORS = (
-    Code.INVALID_REQUEST,
-    Code.INDEX_NOT_FOUND,
-    Code.NO_GEOREFERENCE,
-    Code.INTERNAL_ERROR,
-    *UNAVAILABLE,
-)
-SEARCH_ERRORS = (*REVERSE_ERRORS, Code.QUEUE_FULL, Code.STORE_UNAVAILABLE, Code.DEADLINE_EXCEEDED)
 Form = Annotated[Format, Query(alias="format", description="as in Nominatim; xml is not supported")]
 DESCRIBED: dict[str, Any] = {
     "description": "Nominatim's format; display_name is the place in words",
@@ -63,10 +55,10 @@ async def search(
         check_reach(body, frame)
         response = await localize_for(request, body, queue)
         results = await asyncio.to_thread(search_results, response, queue.localizer, limit)
-    return _respond(format_search(results, form), form)
+    return _respond(format_places(results, form), form)
 
 
-@router.get("/reverse", responses={200: DESCRIBED, **problems(*REVERSE_ERRORS)})
+@router.get("/reverse", responses={200: DESCRIBED, **problems(*QUERY_ERRORS, Code.NO_GEOREFERENCE)})
 async def reverse(
     indexes: AllIndexes,
     lat: Annotated[float, Query(ge=-90, le=90, allow_inf_nan=False)],
@@ -82,7 +74,8 @@ async def reverse(
         described = await asyncio.to_thread(queue.localizer.describe, (x, y)) if abs(x) + abs(y) < 1e8 else None
         if described is None:
             return _respond(NO_RESULT, "json")
-        return _respond(format_reverse(reverse_result(described, queue.localizer), form), form)
+        content = format_places([reverse_result(described, queue.localizer)], form)
+        return _respond(content if form == "geojson" else content[0], form)
 
 
 def _as_query_error(error: Any) -> dict[str, Any]:

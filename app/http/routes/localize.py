@@ -18,24 +18,14 @@ from app.http.formats.geojson import localize_collection
 from app.http.formats.negotiation import GEOJSON, negotiate, respond
 from app.http.middleware import descriptions_of
 from app.http.openapi import geojson_content, problems
-from app.http.queue import UNAVAILABLE, InferenceQueue, ServedAnswer
+from app.http.queue import QUERY_ERRORS, InferenceQueue, ServedAnswer
 from app.http.schemas.requests import DescribeRequest, LocalizeRequest
 from app.http.schemas.responses import LocalizeResponse
 from app.http.schemas.ros import to_ros_pose
 from models.citymap.frame import Frame
 
-ERRORS = (
-    *REFUSALS,
-    Code.INVALID_REQUEST,
-    Code.INDEX_NOT_FOUND,
-    Code.NOT_ACCEPTABLE,
-    Code.NO_GEOREFERENCE,
-    Code.QUEUE_FULL,
-    Code.INTERNAL_ERROR,
-    *UNAVAILABLE,
-    Code.STORE_UNAVAILABLE,
-    Code.DEADLINE_EXCEEDED,
-)
+SEARCH_ERRORS = (*QUERY_ERRORS, Code.NO_GEOREFERENCE, Code.QUEUE_FULL, Code.STORE_UNAVAILABLE, Code.DEADLINE_EXCEEDED)
+ERRORS = (*REFUSALS, Code.NOT_ACCEPTABLE, *SEARCH_ERRORS)
 
 
 class AdmissionRoute(APIRoute):
@@ -59,11 +49,7 @@ router = APIRouter(tags=["localize"], route_class=AdmissionRoute)
 
 
 @router.post("/localize", response_model=LocalizeResponse, responses={200: geojson_content(), **problems(*ERRORS)})
-async def localize(
-    request: Request,
-    body: LocalizeRequest,
-    indexes: AllIndexes,
-) -> Response:
+async def localize(request: Request, body: LocalizeRequest, indexes: AllIndexes) -> Response:
     """Localize the speaker of a description; the answer is JSON, or GeoJSON if the Accept header requests it."""
     async with indexes.lease(body.index) as queue:
         frame = queue.localizer.frame

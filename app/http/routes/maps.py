@@ -40,11 +40,7 @@ def points(
     if scenery is None:
         raise Problem(Code.MAP_NOT_FOUND)
     use_gzip = accepts_gzip(request)
-    headers = {
-        "ETag": etag(scenery.sha256, str(use_gzip)),
-        "Cache-Control": "no-cache",
-        "Vary": "Accept-Encoding",
-    }
+    headers = {"ETag": etag(scenery.sha256, str(use_gzip)), "Cache-Control": "no-cache", "Vary": "Accept-Encoding"}
     if is_unchanged(request, headers["ETag"]):
         return Response(status_code=304, headers=headers)
     if use_gzip:

@@ -19,10 +19,7 @@ Coordinate = Annotated[float, Strict(), Field(allow_inf_nan=False, ge=-MAX_METRE
 Length = Annotated[float, Strict(), Field(allow_inf_nan=False, ge=MIN_METRES, le=MAX_METRES)]
 Point = tuple[Coordinate, Coordinate]
 IndexName = Annotated[
-    str,
-    Strict(),
-    StringConstraints(pattern=NAME_PATTERN),
-    Field(description="an index that GET /info lists"),
+    str, Strict(), StringConstraints(pattern=NAME_PATTERN), Field(description="an index that GET /info lists")
 ]
 
 

@@ -2,16 +2,7 @@
 
 from typing import Annotated, Any, Self
 
-from pydantic import (
-    AfterValidator,
-    BaseModel,
-    ConfigDict,
-    Field,
-    JsonValue,
-    Strict,
-    StringConstraints,
-    model_validator,
-)
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, JsonValue, Strict, StringConstraints, model_validator
 
 from app.http.schemas.fields import (
     Coordinate,
@@ -24,13 +15,7 @@ from app.http.schemas.fields import (
     field_error,
     one_of,
 )
-from app.limits import (
-    DEFAULT_DEADLINE_MS,
-    MAX_DEADLINE_MS,
-    MAX_DESCRIPTION_CHARACTERS,
-    MAX_HINTS,
-    MAX_TOP_K,
-)
+from app.limits import DEFAULT_DEADLINE_MS, MAX_DEADLINE_MS, MAX_DESCRIPTION_CHARACTERS, MAX_HINTS, MAX_TOP_K
 from index.answering.query import (
     DEFAULT_REFINE,
     DEFAULT_TOP_K,

@@ -74,7 +74,7 @@ def test_workers_that_write_elsewhere_and_shards_that_are_lost_are_said(osm_file
         raise ray.exceptions.RayError("node died")
 
     ray = fake_ray(monkeypatch, get=lost, **make_here(lambda *_: None))
-    with pytest.raises(ClusterUnavailable, match=r"lost a shard \(node died\); give the same command again"):
+    with pytest.raises(ClusterUnavailable, match=r"lost a shard \(node died\); repeat the command"):
         build_on_ray(job, 2, None)
 
 
