@@ -267,14 +267,9 @@ def open_source(path: Path, split: str | None = None, progress: Progress | None 
 def open_sources(path: Path, splits: Sequence[str | None], progress: Progress | None = None) -> list[Source]:
     """Open parts of a map or a data set; a map is read and cut once for all of them.
 
-    Args:
-        path: .osm.pbf or .osm; or a directory in KITTI360Pose's published layout; or a converted store.
-        splits: of an OpenStreetMap file: train, val or test (its west, middle or east); of the others a standard
-            split or a comma list of scenes; None for everything.
-        progress: called as the work goes on.
-
-    Raises:
-        MapError, DataError: the data cannot be read, or have no such split.
+    A path is an OpenStreetMap file, a directory in KITTI360Pose's published layout, or a converted store. A split of a
+    file is train, val or test (its west, middle or east); of the others a standard split or a comma list of scenes;
+    None for everything. Raise MapError or DataError if the data cannot be read, or have no such split.
     """
     if path.is_dir():
         return [StoreSource(load_data(path, split), split) for split in splits]

@@ -178,14 +178,9 @@ def _sum_and_max(
 
 @compiled
 def _add_best(
-    squares: SquaredDistances,
-    blocks: SquaredDistances,
-    is_near: Mask,
-    limits: SquaredDistances,
-    by_step: Floats,
-    by_block: Floats,
-    total: Floats,
-) -> None:
+    squares: SquaredDistances, blocks: SquaredDistances, is_near: Mask, limits: SquaredDistances, by_step: Floats,
+    by_block: Floats, total: Floats,
+) -> None:  # fmt: skip
     """Add the best value to every pixel; see `DistanceRaster.add_best`."""
     line, limit, beyond = _column_buffers(squares)
     for x in range(len(total)):
@@ -205,14 +200,9 @@ def _column_buffers(squares: SquaredDistances) -> tuple[Floats, SquaredDistances
 
 @compiled
 def _fill_blocks(
-    blocks: SquaredDistances,
-    is_near: Mask,
-    limits: SquaredDistances,
-    by_block: Floats,
-    x: int,
-    limit: SquaredDistances,
-    beyond: Floats,
-) -> None:
+    blocks: SquaredDistances, is_near: Mask, limits: SquaredDistances, by_block: Floats, x: int,
+    limit: SquaredDistances, beyond: Floats,
+) -> None:  # fmt: skip
     for t in range(len(blocks)):
         for y in range(limit.shape[1]):
             block = blocks[t, x, y // BLOCK_PX]

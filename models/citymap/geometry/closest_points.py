@@ -36,23 +36,15 @@ def closest_instances(
     reach_m: float,
     step_m: float,
 ) -> tuple[Ints, Ints, npt.NDArray[np.int8]]:
-    """Return the offsets from positions to the instances around them.
+    """Return the offsets from points [M, 2] to the instances around them, the nearest first.
 
     Connected pieces in a cell's cube count as one instance part, together with the pieces beside the cube that continue
-    them. A group too small to be a part is left out, unless it is all there is of its instance.
-
-    Args:
-        table: the map's pieces.
-        rules: of its cells.
-        centers_m: [N, 2 or more] of cells.
-        points_m: [M, 2]; cell n owns those from point_starts[n] to point_starts[n + 1].
-        point_starts: [N + 1].
-        reach_m: greatest distance; for a tree the nearer of crown and trunk counts.
-        step_m: unit of the offsets returned.
+    them. A group too small to be a part is left out, unless it is all there is of its instance. Cell n owns the points
+    from point_starts[n] to point_starts[n + 1]. For a tree the nearer of crown and trunk counts.
 
     Returns:
-        [R] point, ascending, [R] instance and [R, 2] point minus the instance's closest point, in steps;
-        the nearest first, (0, 0) inside an area.
+        [R] point, ascending, [R] instance and [R, 2] point minus the instance's closest point, in steps of `step_m`;
+        (0, 0) inside an area.
     """
     return _closest_instances(
         points_m.astype(np.float64), point_starts.astype(np.int64), centers_m[:, :2].astype(np.float64),

@@ -1,8 +1,7 @@
 """direction/<scene>.json: the neighbours of each cell, for prototype-based map cloning (docs/method.md, fine stage).
 
-A scene has one JSON object: cell id -> {"east": cell id or null, ...} with the eight points of the compass. A
-neighbour's centre is one step of the grid away in x, in y or in both; heights do not count. Text2Loc's fine stage looks
-up a pose's neighbours by its cell id, so every cell of the scene must be in it.
+A scene has one JSON object: cell id -> {"east": cell id or null, ...} with the eight points of the compass, each one
+step of the grid away. Text2Loc's fine stage looks up a pose's neighbours, so every cell of the scene must be in it.
 """
 
 import json

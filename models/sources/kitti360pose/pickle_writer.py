@@ -1,8 +1,7 @@
 """Write the published pickles without the reference package.
 
-The library's pickler would import that package, name array constructors that numpy before 1.26 does not know, and keep
-all that it wrote in memory (400 cells with 600 MB of points: 1,215 MB, here 55). So it only writes plain values: a
-pickle of protocol 3 is the operations that make its value, and those of records, lists and arrays are written here.
+`pickle` would import that package, name array constructors that numpy before 1.26 does not know, and keep all that it
+wrote in memory (400 cells with 600 MB of points: 1,215 MB, here 55). So it only writes plain values here.
 """
 
 import pickle
@@ -12,33 +11,23 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from models.sources.kitti360pose.pickle_values import RECORD_MODULE, PickledRecord
-from models.sources.kitti360pose.records import PublishedCell, PublishedHint, PublishedObject, PublishedPose
+from models.sources.kitti360pose.records import PublishedCell, PublishedPose
 
 
 def cell_record(cell: PublishedCell) -> PickledRecord:
     """Return a cell as the reference package's `Cell`."""
-    objects = [_object_record(item) for item in cell.objects]
-    fields = {"scene_name": cell.scene_name, "id": cell.id, "objects": objects}
-    return PickledRecord("Cell", {**fields, "cell_size": cell.cell_size, "bbox_w": cell.bbox_w})
+    return _record("Cell", cell, objects=[_record("Object3d", item) for item in cell.objects])
 
 
 def pose_record(pose: PublishedPose) -> PickledRecord:
     """Return a pose as the reference package's `Pose`."""
-    fields = {"pose": pose.pose, "pose_w": pose.pose_w, "cell_id": pose.cell_id}
-    hints = [_hint_record(hint) for hint in pose.descriptions]
-    return PickledRecord(
-        "Pose", {**fields, "descriptions": hints, "scene_name": pose.scene_name, "described_by": pose.described_by}
-    )
+    return _record("Pose", pose, descriptions=[_record("DescriptionBestCell", hint) for hint in pose.descriptions])
 
 
-def _object_record(item: PublishedObject) -> PickledRecord:
-    names = ("id", "instance_id", "xyz", "rgb", "label")
-    return PickledRecord("Object3d", {name: getattr(item, name) for name in names})
-
-
-def _hint_record(hint: PublishedHint) -> PickledRecord:
-    fields = {name: getattr(hint, name) for name in PublishedHint.__slots__}
-    return PickledRecord("DescriptionBestCell", {name: value for name, value in fields.items() if value is not None})
+def _record(kind: str, published: Any, **parts: list[PickledRecord]) -> PickledRecord:
+    """Return the fields that have a value as a record, with records of its parts."""
+    fields = {name: getattr(published, name) for name in published.__slots__} | parts
+    return PickledRecord(kind, {name: value for name, value in fields.items() if value is not None})
 
 
 def write_records(file: BinaryIO, records: Iterable[PickledRecord]) -> None:

@@ -26,16 +26,8 @@ from models.sources.osm.map import batched, explained_errors, geometry_factories
 from models.spool import Spool
 
 NAME_KEYS = (
-    "name",
-    "name:en",
-    "brand",
-    "short_name",
-    "alt_name",
-    "official_name",
-    "old_name",
-    "loc_name",
-    "addr:housename",
-)
+    "name", "name:en", "brand", "short_name", "alt_name", "official_name", "old_name", "loc_name", "addr:housename",
+)  # fmt: skip
 NON_STREET_HIGHWAYS = frozenset(
     ("proposed", "construction", "bus_stop", "street_lamp", "platform", "elevator", "corridor")
 )

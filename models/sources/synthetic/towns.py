@@ -59,17 +59,11 @@ def write_towns(
     progress: Callable[[int, int], None] | None = None,
     pieces: str = PIECES[0],
 ) -> tuple[str, ...]:
-    """Make the towns of a scale and write them as KITTI-360's raw files; return the scenes' folders.
+    """Make the towns of one of SCALES and write them as KITTI-360's raw files; return the scenes' folders.
 
-    Args:
-        out: folder, new or empty.
-        scale: one of SCALES.
-        seed: the same seed gives the same bytes.
-        progress: called with (towns written, towns to write).
-        pieces: one of PIECES; the points are the same with both.
-
-    Raises:
-        DataError: an argument is wrong, or the folder is not empty or cannot be written; nothing is left.
+    The same seed gives the same bytes, and the same points with each of PIECES. `progress` gets (towns written, towns
+    to write). Raise DataError, and leave nothing, if an argument is wrong, or the folder is not empty or cannot be
+    written.
     """
     if scale not in SIZES:
         raise DataError(f"scale '{scale}' is unknown; choose from: {', '.join(SCALES)}")
