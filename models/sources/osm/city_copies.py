@@ -10,7 +10,7 @@ import osmium
 
 from models.errors import MapError
 from models.sources.osm.copy_names import CopyNames, ExtractNames
-from models.sources.osm.map import SUFFIXES
+from models.sources.osm.map import SUFFIXES, explained_errors
 
 UNITS_PER_DEGREE: Final = 10_000_000  # OpenStreetMap stores coordinates in these units
 BOX_MARGIN_UNITS: Final = 1000  # around the nodes of a file without a box, for features drawn wider than their line
@@ -79,7 +79,7 @@ class CityExtract:
             raise MapError(f"{path}: not an OpenStreetMap file; give one that ends in {' or '.join(SUFFIXES)} as --map")
         element: Any
         names, ids, bounds = ExtractNames(), {letter: {0} for letter in OSM_TYPES}, _BoundingBox()
-        try:
+        with explained_errors(path):
             header = osmium.io.Reader(str(path)).header().box()
             for element in osmium.FileProcessor(str(path)):
                 letter = element.type_str()
@@ -88,8 +88,6 @@ class CityExtract:
                     ids[kind].add(number)
                 if letter == "n" and element.location.valid():
                     bounds.add(element.location)
-        except (RuntimeError, ValueError, OSError) as error:
-            raise MapError(f"{path}: cannot be read as OpenStreetMap ({error}); download it again") from error
         if header.valid():
             bounds.add(header.bottom_left)
             bounds.add(header.top_right)

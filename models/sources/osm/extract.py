@@ -11,7 +11,7 @@ import shapely
 from shapely.errors import ShapelyError
 
 from models.errors import MapError
-from models.sources.osm.map import SUFFIXES
+from models.sources.osm.map import SUFFIXES, explained_errors
 from models.spool import scratch
 
 REGION_FORMS = "give west,south,east,north in degrees, or a GeoJSON file with a polygon"
@@ -71,15 +71,13 @@ def extract(path: Path, region: Region, out: Path) -> None:
     """
     header = osmium.io.Header()
     header.add_box(osmium.osm.Box(*region.shape.bounds))
-    try:
+    with explained_errors(path):
         taken = _nodes_inside(path, region.shape)
         taken.complete_forward_references(str(path))
         taken.complete_backward_references(str(path), relation_depth=1)
         with osmium.SimpleWriter(str(out), header=header) as writer:
             for element in osmium.FileProcessor(str(path)).with_filter(taken.id_filter()):
                 writer.add(element)
-    except (RuntimeError, ValueError, OSError) as error:
-        raise MapError(f"{path}: cannot be read as OpenStreetMap ({error}); download it again") from error
 
 
 def _nodes_inside(path: Path, shape: shapely.Geometry) -> osmium.IdTracker:
