@@ -38,7 +38,14 @@ def prepare_scene(
             "and y; cells need a metre in each"
         )
     positions = shift_locations(locations, config, rng)
-    step = _CubeProgress(len(centers) + len(positions), progress)
+    done = 0
+
+    def step(cubes: int) -> None:
+        nonlocal done
+        done += cubes
+        if progress:
+            progress(done, len(centers) + len(positions))
+
     cells = cut_cells(raw, points, centers, config, step)
     poses = describe_positions(raw, points, cells, positions, config, step)
     if not poses:
@@ -47,16 +54,6 @@ def prepare_scene(
             f"within {config.hint_reach_m} m and a cell's centre within {config.best_cell_reach_m} m"
         )
     return cells, poses
-
-
-class _CubeProgress:
-    def __init__(self, total: int, progress: Progress | None) -> None:
-        self.done, self.total, self.progress = 0, total, progress
-
-    def __call__(self, cubes: int) -> None:
-        self.done += cubes
-        if self.progress:
-            self.progress(self.done, self.total)
 
 
 def scene_points(raw: RawScene, config: PrepareConfig) -> PointTable:

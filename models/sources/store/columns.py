@@ -3,7 +3,7 @@
 from contextlib import ExitStack
 from itertools import pairwise
 from pathlib import Path
-from typing import Any, BinaryIO, Protocol
+from typing import Any, BinaryIO
 
 import numpy as np
 
@@ -20,13 +20,6 @@ from models.sources.store.layout import (
     in_cell_units,
     starts_of,
 )
-
-
-class Sink(Protocol):
-    """A destination for columns that grow."""
-
-    def append(self, name: str, rows: Column) -> None:
-        """Add rows to a column."""
 
 
 class MemorySink:
@@ -81,7 +74,7 @@ class DiskSink:
 class ColumnWriter:
     """Writes cells and poses as columns, one by one; columns hold the numbers of `words`."""
 
-    def __init__(self, sink: Sink) -> None:
+    def __init__(self, sink: MemorySink | DiskSink) -> None:
         self._sink = sink
         self.words: dict[str, int] = {}
         self.cell_ids: list[str] = []  # in order of the rows
