@@ -1,7 +1,6 @@
 """Cut a map into cells: the instances, whole or clipped, inside cubes around given centres.
 
-The same code cuts the cells of the grid and the cube around a pose from which its hints are made (docs/formats.md,
-rules 4 and 5).
+The same code cuts the cells of the grid and the cube around a pose for its hints (docs/formats.md, rules 4 and 5).
 """
 
 from collections.abc import Callable, Sequence

@@ -118,8 +118,7 @@ class DistanceRaster:
     def add_best(self, total: Floats, distances: GroupDistances, by_step: Floats, by_block: Floats) -> None:
         """Add the value of the best group to every pixel of `total` [columns, rows] (float32).
 
-        Values are given for each distance of `steps_m` (`by_step` [T, S]) and of `block_steps_m` (`by_block` [T, B]),
-        float32.
+        Values are given for each distance of `steps_m` (`by_step` [T, S]) and of `block_steps_m` (`by_block` [T, B]).
         """
         _add_best(distances.squares, distances.blocks, distances.is_near, self._limits, by_step, by_block, total)
 

@@ -210,8 +210,7 @@ def sample_pieces(
 def scan_pieces(table: PieceTable, shapes: Sequence[str], centers_m: Floats, rules: CutRules) -> Floats:
     """Return the point [R, 3] (float32) of each part that is nearest to the centre, among the points a scan would have.
 
-    Arguments and order are those of `sample_pieces`. The points of a scan lie apart, so along a far edge the nearest
-    can be metres off.
+    Arguments and order are those of `sample_pieces`. Scanned points lie apart: far edges can be metres off.
     """
     grouped = _PartGroups.cut(table, InstanceTotals.from_pieces(table), rules, centers_m.astype(np.float64))
     closest = [np.zeros((0, 3))]

@@ -156,8 +156,7 @@ def _find_links(
 ) -> Iterator[dict[str, Ints]]:
     """Yield the numbers of links ("sizes") and "links" between pieces of one instance that touch across tiles.
 
-    Works on some columns of tiles at a time. Pieces [K] are in order of column and have the segments from `starts` [K +
-    1].
+    Works on some columns of tiles at a time; pieces are in order of column.
     """
     instance, dimension, form, segments = (columns[name] for name in ("instance", "dimension", "form", "segments"))
     count, known, pending = len(column), 0, np.zeros(0, np.int64)

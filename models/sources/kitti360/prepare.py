@@ -25,9 +25,8 @@ def prepare_scene(
 ) -> tuple[list[PublishedCell], list[PublishedPose]]:
     """Make a scene's cells, in order of x, then y, and its poses, in order of location, copy and strategy.
 
-    The scene was read with the classes of the same config; `rng` draws the positions, `progress` gets (cubes cut, cubes
-    to cut). Raise DataError if there is no location near a thing, no cell, or no position with enough instances around
-    it.
+    `rng` draws the positions, `progress` gets (cubes cut, cubes to cut). Raise DataError if there is no location near a
+    thing, no cell, or no position with enough instances around it.
     """
     points = scene_points(raw, config)
     locations = choose_locations(raw, config)

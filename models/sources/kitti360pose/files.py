@@ -57,8 +57,8 @@ def select_scenes(available: Sequence[str], split: str | None, where: Path) -> t
     """Return the scenes of a split.
 
     A split is "train", "val" or "test" (those of the standard split that are available), a comma list of names, long or
-    short, or None for all. Raise DataError if a named scene, or every scene of a standard split, is missing, or a name
-    is ambiguous; `where` names the data.
+    short, or None for all. Raise DataError, naming the data `where`, if a named scene, or every scene of a standard
+    split, is missing, or a name is ambiguous.
     """
     if split is None:
         return tuple(available)
@@ -114,8 +114,7 @@ def build_cell_key(cell: PublishedCell) -> CellKey:
 def check_poses(path: Path, poses: Sequence[PublishedPose], cells: Mapping[str, CellKey]) -> None:
     """Check that the poses of a file belong to the cells of the same scene, by id.
 
-    Raise DataError if a pose's cell, or the object of a matched hint, is missing, or the cells are of another scene or
-    frame.
+    Raise DataError if a pose's cell or a matched hint's object is missing, or the cells are of another scene or frame.
     """
     for n, pose in enumerate(poses):
         problem = _pose_problem(pose, cells)

@@ -97,9 +97,8 @@ class CityExtract:
     def write_tiled(self, copies: int, out: Path) -> CopyGrid:
         """Write copies side by side into an .osm.pbf; the file is read again for each, with one element in memory.
 
-        Copy 0 is the extract as it is. The others have shifted ids and coordinates and new names, see
-        `models.sources.osm.copy_names`. Raise MapError if they do not fit on Earth, or a file cannot be read or
-        written.
+        Copy 0 is the extract as it is. The others have shifted ids and coordinates and new names (`copy_names`). Raise
+        MapError if they do not fit on Earth, or a file cannot be read or written.
         """
         block, header = CopyGrid(self.box, copies), osmium.io.Header()
         header.add_box(osmium.osm.Box(*block.bounds()))
