@@ -27,14 +27,14 @@ def measure_searches(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -
     "found" is the recall of FAISS against exact search. "milvus" has its kind (milvus-lite, or the server of
     HEREABOUTS_MILVUS_URI), "write_seconds" and "ms", or says why Milvus does not answer.
     """
-    from models.posterior.posterior import CANDIDATES  # noqa: PLC0415 - heavy
+    from models.posterior.posterior import CANDIDATE_CELLS  # noqa: PLC0415 - heavy
 
     vectors = np.concatenate([text.global_vectors.cpu().numpy() for text in localizer.retriever.encode_texts(texts)])
     return {
-        "candidates": CANDIDATES,
-        "faiss_ms": _median_ms(localizer.ranker.store, vectors, CANDIDATES),
-        "found": _recall(localizer.ranker.store, vectors, CANDIDATES),
-        "milvus": _measure_milvus(localizer, vectors, CANDIDATES),
+        "candidates": CANDIDATE_CELLS,
+        "faiss_ms": _median_ms(localizer.ranker.store, vectors, CANDIDATE_CELLS),
+        "found": _recall(localizer.ranker.store, vectors, CANDIDATE_CELLS),
+        "milvus": _measure_milvus(localizer, vectors, CANDIDATE_CELLS),
     }
 
 

@@ -83,15 +83,17 @@ def measure_parts(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -> d
     """
     from index.answering.vector_localizer import RANKED_CELLS  # noqa: PLC0415 - heavy
     from models.posterior.locate import locate  # noqa: PLC0415 - heavy
+    from models.posterior.posterior import PositionEvidence  # noqa: PLC0415 - heavy
 
     posterior, retriever = localizer.posterior, localizer.retriever
     ranker = localizer.vector_localizer("none").ranker
     steps: dict[str, list[float]] = {"read": [], "posterior": [], "candidates": [], "encode": [], "vector_search": []}
     for text in texts:
         [hints] = _timed(steps["read"], posterior.chunk_reader.parse, [" ".join(text)])
-        reading = posterior.binding.reading(hints)
-        rows = _timed(steps["candidates"], posterior.search, hints, reading)
-        _timed(steps["posterior"], partial(locate, further=rows), posterior.nodes, reading)
+        bound_hints = posterior.binding.bind(hints)
+        rows = _timed(steps["candidates"], posterior.search, hints, bound_hints)
+        evidence = PositionEvidence(bound_hints)
+        _timed(steps["posterior"], partial(locate, extra_cells=rows), posterior.nodes, evidence)
         encoded = _timed(steps["encode"], retriever.encode_texts, [text])
         _timed(steps["vector_search"], ranker.rank, encoded, RANKED_CELLS)
     surroundings, cells = posterior.surroundings, len(localizer.gallery.cells)

@@ -66,18 +66,18 @@ class VisibleObject:
     instance: str  # its class
     name: str | None
     source_id: str | None
-    way_m: Floats  # [2] offset from the position to its closest point
+    offset_m: Floats  # [2] offset from the position to its closest point
 
     @property
     def metres(self) -> float:
         """Return its distance."""
-        return float(np.hypot(*self.way_m))
+        return float(np.hypot(*self.offset_m))
 
     def fact(self, text: str, position: Floats) -> Fact:
         """Return the fact that a sentence states about it, at a position [2]."""
         away_m = round(self.metres, 1)
-        bearing = round(float(np.degrees(np.arctan2(*self.way_m))), 1) % 360 if away_m else None
-        closest_m = pair(np.round(position + self.way_m, 2))
+        bearing = round(float(np.degrees(np.arctan2(*self.offset_m))), 1) % 360 if away_m else None
+        closest_m = pair(np.round(position + self.offset_m, 2))
         return Fact(text, self.instance, self.name, self.source_id, closest_m, away_m, bearing)
 
 
@@ -132,12 +132,12 @@ def street_facts(gazetteer: Gazetteer, position: Floats, most_crossing: int) -> 
     nearest = nearest_street(gazetteer, position)
     if nearest is None:
         return []
-    street, way_m = nearest
+    street, offset_m = nearest
     words = gazetteer.objects[street]
-    name, sight = words.names[0], VisibleObject(STREET_KIND, words.names[0], words.source_id, way_m)
+    name, sight = words.names[0], VisibleObject(STREET_KIND, words.names[0], words.source_id, offset_m)
     crossing = list(islice(_crossing_streets(gazetteer, street, position), most_crossing))
     if sight.metres > STREET_HALF_WIDTH_M:
-        text = named_text(name, way_m)
+        text = named_text(name, offset_m)
     else:
         text = f"I am on {name}." if crossing else f"I am {street_text(gazetteer, street, position)}."
     return [sight.fact(text, position), *crossing]
@@ -152,9 +152,9 @@ def _crossing_streets(gazetteer: Gazetteer, street: int, position: Floats) -> It
     if len(ways.target) and ways.distance_m.min() <= CORNER_REACH_M:
         return
     for row in np.argsort(ways.distance_m, kind="stable").tolist():
-        words, way_m = gazetteer.objects[int(others[ways.target[row]])], ways.offset_m[row]
+        words, offset_m = gazetteer.objects[int(others[ways.target[row]])], ways.offset_m[row]
         name = words.names[0]
-        yield VisibleObject(STREET_KIND, name, words.source_id, way_m).fact(named_text(name, way_m), position)
+        yield VisibleObject(STREET_KIND, name, words.source_id, offset_m).fact(named_text(name, offset_m), position)
 
 
 class NamedFacts:
@@ -188,11 +188,11 @@ class NamedFacts:
         cost = (ways.distance_m + DISTANCE_OFFSET_M + size_m) * np.sqrt(self._namesakes[rows])
         fact_by_name: dict[str, Fact] = {}
         for n in np.argsort(cost, kind="stable").tolist():
-            words, way_m = gazetteer.objects[int(objects[rows[n]])], ways.offset_m[n]
+            words, offset_m = gazetteer.objects[int(objects[rows[n]])], ways.offset_m[n]
             name = words.names[0]
             if name.casefold() not in fact_by_name:
-                sight = VisibleObject(words.kinds[0], name, words.source_id, way_m)
-                fact_by_name[name.casefold()] = sight.fact(named_text(name, way_m), position)
+                sight = VisibleObject(words.kinds[0], name, words.source_id, offset_m)
+                fact_by_name[name.casefold()] = sight.fact(named_text(name, offset_m), position)
         return list(fact_by_name.values())
 
 
@@ -201,7 +201,7 @@ class NearFacts:
 
     def __init__(self, gallery: Gallery, palette: Palette, surroundings: NeighbourIndex) -> None:
         self._gallery, self._words, self._surroundings = gallery, palette.words, surroundings
-        objects = surroundings.things
+        objects = surroundings.objects
         self._colour = palette.word_index(objects.rgb)
         label = objects.labels(gallery)[1]
         self._kind = label * (len(palette.words) + 1) + self._colour + 1  # a class in a colour
@@ -225,7 +225,7 @@ class NearFacts:
     ) -> Iterator[tuple[Hint, bool, VisibleObject]]:
         """Yield objects to mention, alternating between sides, each object and each hint once."""
         part, offset_m, whole = self._around(position, cell)
-        direction, gallery, objects = direction_index(offset_m), self._gallery, self._surroundings.things
+        direction, gallery, objects = direction_index(offset_m), self._gallery, self._surroundings.objects
         cost = np.hypot(*offset_m.T) + RARITY_BONUS_M * self._log_share[self._kind[part]]
         order = np.lexsort((cost, ~whole))
         used = set[tuple[int, int] | int]()
@@ -249,14 +249,16 @@ class NearFacts:
         nodes_m = s.positions_m(np.arange(first, last))
         nearest = int(((nodes_m - position) ** 2).sum(axis=1).argmin())
         around = s.around(np.array([first + nearest]))
-        return around.part, around.way_m + (position - nodes_m[nearest]), around.whole
+        return around.part, around.offset_m + (position - nodes_m[nearest]), around.whole
 
 
-def named_text(name: str, way_m: Floats) -> str:
+def named_text(name: str, offset_m: Floats) -> str:
     """Return the sentence about a named object at an offset [2] from the speaker."""
-    metres = float(np.hypot(*way_m))
+    metres = float(np.hypot(*offset_m))
     return (
-        f"I am at {name}." if metres < SAME_PLACE_M else f"{name} is {metres:.0f} m to my {compass_direction(way_m)}."
+        f"I am at {name}."
+        if metres < SAME_PLACE_M
+        else f"{name} is {metres:.0f} m to my {compass_direction(offset_m)}."
     )
 
 

@@ -11,7 +11,7 @@ from models.citymap.frame import Frame
 from models.citymap.hints import BEST_CELL_REACH_M
 from models.citymap.points import ranges
 from models.citymap.types import Floats
-from models.posterior.area_filter import Inside
+from models.posterior.area_filter import AreaFilter
 from models.posterior.neighbours.neighbour_index import NeighbourIndex
 
 EDGE_BEND_M: Final = 0.5  # curvature of a box edge in degrees between two points, at most
@@ -36,13 +36,13 @@ def is_inside(query: Query, points_m: Floats, frame: Frame) -> Mask:
     return np.ones(len(points_m), dtype=bool)
 
 
-def nodes_inside(query: Query, surroundings: NeighbourIndex, centers_m: Floats, frame: Frame) -> Inside | None:
+def nodes_inside(query: Query, surroundings: NeighbourIndex, centers_m: Floats, frame: Frame) -> AreaFilter | None:
     """Return the exact nodes inside `within`, of cells with centres [N, 2]; None without a filter."""
     if query.within is None:
         return None
     bounds = _circle_bounds(query, frame) if isinstance(query.within, Circle) else _box_bounds(query, centers_m, frame)
 
-    def holds(points_m: Floats) -> Mask:
+    def contains(points_m: Floats) -> Mask:
         near, sure = bounds(points_m, EDGE_BEND_M)
         unsure = np.flatnonzero(near & ~sure)
         sure[unsure] = is_inside(query, points_m[unsure], frame)
@@ -53,8 +53,8 @@ def nodes_inside(query: Query, surroundings: NeighbourIndex, centers_m: Floats, 
     border = np.flatnonzero(near & ~sure)
     nodes = ranges(starts[border], starts[border + 1])
     cells = sure & (np.diff(starts) > 0)
-    cells[surroundings.owner(nodes[holds(surroundings.positions_m(nodes))])] = True
-    return Inside(cells, holds)
+    cells[surroundings.owner(nodes[contains(surroundings.positions_m(nodes))])] = True
+    return AreaFilter(cells, contains)
 
 
 def _circle_bounds(query: Query, frame: Frame) -> BoundsTest:

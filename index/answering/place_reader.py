@@ -24,7 +24,7 @@ from models.language.mentions.reader import find_mentions, is_meeting, listener_
 from models.language.mentions.spans import PASSED, STOP
 from models.language.parsed_hint import ParsedHint
 from models.language.text_encoder import TextEncoder
-from models.posterior.distribution import Located
+from models.posterior.distribution import PositionDistribution
 from models.posterior.places.explanations import MentionExplanation
 from models.posterior.places.field import PlaceEvidence, PlaceField
 from models.posterior.places.kernels import HEADINGS, PlaceKernels
@@ -84,16 +84,16 @@ class PlaceReader:
         meets = listener_m is not None or is_meeting(description)
         if not mentions and wind is None:
             return None  # saves the pass over every cell
-        place_evidence = self.field.told(mentions, listener_m, wind, is_meeting=meets)
-        return place_evidence if place_evidence.places.mentions or wind is not None else None
+        place_evidence = self.field.evidence(mentions, listener_m, wind, is_meeting=meets)
+        return place_evidence if place_evidence.placed.mentions or wind is not None else None
 
     @torch.inference_mode()
     def evidence(
         self, mentions: Sequence[Mention], place_evidence: PlaceEvidence | None, position: Floats
     ) -> tuple[Evidence, ...]:
         """Return the evidence of each mention at a position [2]."""
-        known = place_evidence.places.mentions if place_evidence is not None else ()
-        explained = self.field.explain(place_evidence.places, position[None]) if place_evidence is not None else []
+        known = place_evidence.placed.mentions if place_evidence is not None else ()
+        explained = self.field.explain(place_evidence.placed, position[None]) if place_evidence is not None else []
         explanation_of = {id(mention): explanation for mention, explanation in zip(known, explained, strict=True)}
         return tuple(self._mention_evidence(m, explanation_of.get(id(m)), position) for m in mentions)
 
@@ -101,9 +101,9 @@ class PlaceReader:
         evidence = _unexplained_evidence(mention)
         if by is None or by.item < 0:
             return evidence
-        shown: dict[str, Any] = {"away_m": round(float(np.hypot(*by.way_m)), 1)}
-        shown["at"] = pair(np.round(position + by.way_m, 2))
-        shown["bearing_deg"] = round(float(np.degrees(np.arctan2(*by.way_m))) % 360, 1)
+        shown: dict[str, Any] = {"away_m": round(float(np.hypot(*by.offset_m)), 1)}
+        shown["at"] = pair(np.round(position + by.offset_m, 2))
+        shown["bearing_deg"] = round(float(np.degrees(np.arctan2(*by.offset_m))) % 360, 1)
         if by.item < len(mention.objects):
             words = self.gazetteer.objects[int(mention.objects[by.item])]
             kind = words.kinds[0] if words.kinds else None
@@ -112,10 +112,10 @@ class PlaceReader:
         return replace(evidence, label=label or mention.form, explained=by.probability, **shown)
 
     @torch.inference_mode()
-    def heading(self, place_evidence: PlaceEvidence | None, located: Located) -> Heading | None:
+    def heading(self, place_evidence: PlaceEvidence | None, located: PositionDistribution) -> Heading | None:
         """Return the heading from the likeliest nodes; None if the text does not tell."""
         if place_evidence is None or not any(
-            mention.cue.angle is not None for mention in place_evidence.places.mentions
+            mention.cue.angle is not None for mention in place_evidence.placed.mentions
         ):
             return None
         near = np.hypot(*(located.points_m - located.positions[0]).T) <= located.radii_m(0.5)[0] + 3.0
@@ -123,7 +123,7 @@ class PlaceReader:
         rows = rows[np.argsort(-located.weight[rows], kind="stable")[:HEADING_NODES]]
         if not len(rows):
             return None
-        by = self.field.by_heading(place_evidence.places, located.points_m[rows], np.zeros(len(rows), np.int64))
+        by = self.field.by_heading(place_evidence.placed, located.points_m[rows], np.zeros(len(rows), np.int64))
         weight = torch.softmax(by, dim=1) * torch.from_numpy(located.weight[rows]).float()[:, None]
         share = (weight.sum(dim=0) / weight.sum().clamp(min=1e-12)).double().numpy()
         angle = np.arange(HEADINGS) * 2 * np.pi / HEADINGS

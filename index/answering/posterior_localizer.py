@@ -32,17 +32,17 @@ from models.language.mentions.reader import is_meeting, listener_wind
 from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import COLOURS
 from models.paper.levels import Levels
-from models.posterior.area_filter import Inside
+from models.posterior.area_filter import AreaFilter
 from models.posterior.binding import Binding
-from models.posterior.distribution import Located
-from models.posterior.likelihood import Reading
+from models.posterior.distribution import PositionDistribution
+from models.posterior.likelihood import BoundHints
 from models.posterior.locate import locate
 from models.posterior.model import PosteriorConfig, PosteriorModel
 from models.posterior.neighbours.neighbour_index import NeighbourIndex
 from models.posterior.places.field import PlaceEvidence
 from models.posterior.places.landmarks import Landmarks
-from models.posterior.posterior import CANDIDATES, HintExplanation, HintPosterior
-from models.posterior.questions import Answered
+from models.posterior.posterior import CANDIDATE_CELLS, HintExplanation, HintPosterior, PositionEvidence
+from models.posterior.questions import ReplyEvidence
 from models.posterior.statements import Statements
 
 CACHED_DESCRIPTIONS = 256  # retriever vectors of the latest descriptions
@@ -82,7 +82,7 @@ class PosteriorLocalizer:
         self.weights, self.gallery, self.frame, self.ranker = model, gallery, frame, ranker
         self.surroundings, self._gazetteer = surroundings, gazetteer
         self.model = ModelName(model.name, model.fingerprint)  # once: it reads all weights
-        labels, label = surroundings.things.labels(gallery)
+        labels, label = surroundings.objects.labels(gallery)
         self.nodes = HintPosterior(model.likelihood, surroundings, gallery.cells, label, palette, statements)
         self.labels = labels
         self.binding = Binding(model.matcher, list(labels), palette)
@@ -91,7 +91,9 @@ class PosteriorLocalizer:
             centers_m = gallery.cells.center_m[:, :2].astype(np.float64)
             of_map = gazetteer, model.text_encoder, centers_m, grid_m, meanings, names
             self.places = PlaceReader(model.places, model.cues, *of_map)
-        self.questions = Questions(self.nodes.sights, list(self.labels), palette, gazetteer, gallery.cells, landmarks)
+        self.questions = Questions(
+            self.nodes.nearby_objects, list(self.labels), palette, gazetteer, gallery.cells, landmarks
+        )
         self.chunk_reader = ChunkReader(model.reader)
         self._encoded = lru_cache(maxsize=CACHED_DESCRIPTIONS)(self._encode)
 
@@ -104,61 +106,61 @@ class PosteriorLocalizer:
 
     def _find(self, query: Query, hints: Sequence[ParsedHint], encode_ms: float) -> LocalizerResult:
         start = time.perf_counter()
-        answered = self.questions.answered(query.replies)
+        reply_evidence = self.questions.reply_evidence(query.replies)
         language = detect_language(query.description)
         hints = hints if language == ENGLISH else []
         warnings = _language_warnings(language)
-        hints, reading, mentions, place_evidence = self._read(query, language, hints)
+        hints, bound_hints, mentions, place_evidence = self._read(query, language, hints)
         timings = {"encode": encode_ms + _elapsed_ms(start)}
         warnings += (*_unknown_name_warnings(mentions), *contradictions(mentions))
-        known_facts = KnownFacts.from_text(reading, mentions, list(self.labels), self._gazetteer)
-        if not hints and place_evidence is None and answered is None:
+        known_facts = KnownFacts.from_text(bound_hints, mentions, list(self.labels), self._gazetteer)
+        if not hints and place_evidence is None and reply_evidence is None:
             refusal, question = (
                 NO_MATCH if mentions else NO_HINTS,
                 self._question_for_refused(query, language, known_facts),
             )
             return LocalizerResult(None, refusal, timings_ms=timings, warnings=warnings, question=question)
         start = time.perf_counter()
-        located = self._locate(query, hints, reading, place_evidence, answered)
+        located = self._locate(query, hints, bound_hints, place_evidence, reply_evidence)
         timings["search"] = _elapsed_ms(start)
         if located is None:
             return LocalizerResult(None, OUTSIDE_MAP, timings_ms=timings, warnings=warnings)
         start = time.perf_counter()
-        result = self._explain(located, hints, reading, mentions, place_evidence)
+        result = self._explain(located, hints, bound_hints, mentions, place_evidence)
         result = replace(result, evidence=with_description_spans(query.description, result.evidence))
         fits = any(hint.explained >= EXPLAINED_PROBABILITY for hint in result.evidence)
-        if not fits and answered is not None:
+        if not fits and reply_evidence is not None:
             warnings += (REPLIES_ONLY,)
-        if not fits and answered is None and result.evidence:
+        if not fits and reply_evidence is None and result.evidence:
             result = replace(
                 result, refusal=NO_MATCH, question=self._question_for_refused(query, language, known_facts)
             )
-        elif self._is_uncertain(located, answered) and not _is_about_another_place(query):
+        elif self._is_uncertain(located, reply_evidence) and not _is_about_another_place(query):
             result = replace(result, question=self.questions.ask(located, known_facts, query.replies))
         timings["estimate"] = _elapsed_ms(start)
         return replace(result, timings_ms=timings, warnings=warnings)
 
-    def _is_uncertain(self, located: Located, answered: Answered | None) -> bool:
+    def _is_uncertain(self, located: PositionDistribution, reply_evidence: ReplyEvidence | None) -> bool:
         p50 = located.radii_m(0.5)[0]
-        return is_ambiguous(p50, self.gallery.cells) or (answered is not None and p50 > WELL_LOCATED_M)
+        return is_ambiguous(p50, self.gallery.cells) or (reply_evidence is not None and p50 > WELL_LOCATED_M)
 
     def _question_for_refused(self, query: Query, language: str, known_facts: KnownFacts) -> Question | None:
         """Return the question for a refused text; None on a map without names and for texts that are not English."""
         if not self.questions.has_names or language != ENGLISH or _is_about_another_place(query):
             return None
         log_p, inside = log_prior(query, self.gallery.cells.center_m[:, :2], self.frame), self._inside(query)
-        log_p = log_p if inside is None else np.where(inside.cells, log_p, -np.inf)
+        log_p = log_p if inside is None else np.where(inside.has_node, log_p, -np.inf)
         return self.questions.ask_anywhere(log_p, known_facts, query.replies)
 
     def _explain(
         self,
-        located: Located,
+        located: PositionDistribution,
         hints: Sequence[ParsedHint],
-        reading: Reading | None,
+        bound_hints: BoundHints | None,
         mentions: Sequence[Mention],
         place_evidence: PlaceEvidence | None,
     ) -> LocalizerResult:
-        evidence = self._evidence(hints, reading, located) if reading is not None else ()
+        evidence = self._evidence(hints, bound_hints, located) if bound_hints is not None else ()
         if self.places is None:
             return LocalizerResult(located, evidence=evidence)
         position = located.positions[0]
@@ -168,59 +170,61 @@ class PosteriorLocalizer:
 
     def _read(
         self, query: Query, language: str, hints: Sequence[ParsedHint]
-    ) -> tuple[Sequence[ParsedHint], Reading | None, list[Mention], PlaceEvidence | None]:
-        """Return the hints about nearby objects, their reading, the mentions of places, and their evidence."""
+    ) -> tuple[Sequence[ParsedHint], BoundHints | None, list[Mention], PlaceEvidence | None]:
+        """Return the hints about nearby objects, these bound to the map, the mentions of places, and their evidence."""
         if self.places is None:
-            return hints, self.binding.reading(hints) if hints else None, [], None
+            return hints, self.binding.bind(hints) if hints else None, [], None
         listener_m = None if query.prior is None else self.frame.position_m(query.prior.position, query.crs)
         text = reader_text(query.description)
         nouns = [(hint.start, hint.end) for hint in hints]
         mentions = self.places.read(text, language, nouns, to_listener=listener_m is not None)
         hints = [] if mentions and _is_about_another_place(query) else possibly_near_hints(hints, mentions)
-        reading = self.binding.reading(hints) if hints else None
-        trust = [] if reading is None else reading.label.amax(dim=1).tolist()
+        bound_hints = self.binding.bind(hints) if hints else None
+        trust = [] if bound_hints is None else bound_hints.label.amax(dim=1).tolist()
         near, mentions = near_hints(hints, trust, mentions)
         hints, mentions = with_one_owner(text, [hints[n] for n in near], mentions)
         place_evidence = self.places.place_evidence(mentions, query.description, listener_m)
-        return hints, self.binding.reading(hints) if hints else None, mentions, place_evidence
+        return hints, self.binding.bind(hints) if hints else None, mentions, place_evidence
 
     def _locate(
         self,
         query: Query,
         hints: Sequence[ParsedHint],
-        reading: Reading | None,
+        bound_hints: BoundHints | None,
         place_evidence: PlaceEvidence | None,
-        answered: Answered | None,
-    ) -> Located | None:
-        count = REPLY_CANDIDATE_CELLS if reading is None else CANDIDATES
-        located = locate(
-            self.nodes,
-            reading,
-            None if query.prior is None else lambda points_m: log_prior(query, points_m, self.frame),
-            self._inside(query),
-            PLACE_CANDIDATE_CELLS if place_evidence is not None else count,
-            further=None if reading is None else self.search(hints, reading),
-            told=place_evidence,
-            answered=answered,
+        reply_evidence: ReplyEvidence | None,
+    ) -> PositionDistribution | None:
+        count = REPLY_CANDIDATE_CELLS if bound_hints is None else CANDIDATE_CELLS
+        evidence = PositionEvidence(
+            hints=bound_hints,
+            places=place_evidence,
+            replies=reply_evidence,
+            log_prior=None if query.prior is None else lambda points_m: log_prior(query, points_m, self.frame),
+            area=self._inside(query),
         )
+        candidates = PLACE_CANDIDATE_CELLS if place_evidence is not None else count
+        extra_cells = None if bound_hints is None else self.search(hints, bound_hints)
+        located = locate(self.nodes, evidence, candidates, extra_cells)
         return located and self._calibrate_radii(located, query, place_evidence)
 
-    def _inside(self, query: Query) -> Inside | None:
+    def _inside(self, query: Query) -> AreaFilter | None:
         return nodes_inside(query, self.surroundings, self.gallery.cells.center_m[:, :2], self.frame)
 
-    def _calibrate_radii(self, located: Located, query: Query, place_evidence: PlaceEvidence | None) -> Located:
+    def _calibrate_radii(
+        self, located: PositionDistribution, query: Query, place_evidence: PlaceEvidence | None
+    ) -> PositionDistribution:
         config: PosteriorConfig = self.weights.config
         if place_evidence is None:
-            return replace(located, held=config.radius_held)
-        is_told_to = query.prior is not None or is_meeting(query.description)
-        return replace(located, radius_scale=config.meeting_scale if is_told_to else config.place_scale)
+            return replace(located, calibrated_masses=config.radius_held)
+        is_for_listener = query.prior is not None or is_meeting(query.description)
+        return replace(located, radius_scale=config.meeting_scale if is_for_listener else config.place_scale)
 
-    def search(self, hints: Sequence[ParsedHint], reading: Reading) -> Ints:
+    def search(self, hints: Sequence[ParsedHint], bound_hints: BoundHints) -> Ints:
         """Return the cells [A] that the vector index finds for hints in the retriever's words."""
-        sentences = self.binding.sentences(hints, reading)
+        sentences = self.binding.sentences(hints, bound_hints)
         if not sentences:
             return np.empty(0, np.int64)
-        rows: Ints = self.ranker.search([self._encoded(sentences)], CANDIDATES)[1][0]
+        rows: Ints = self.ranker.search([self._encoded(sentences)], CANDIDATE_CELLS)[1][0]
         return rows
 
     def _encode(self, sentences: tuple[str, ...]) -> Levels:
@@ -229,14 +233,18 @@ class PosteriorLocalizer:
     def sentences(self, descriptions: Sequence[str]) -> list[tuple[str, ...]]:
         """Return descriptions as template sentences with the map's classes, as far as they were parsed."""
         return [
-            self.binding.sentences(hints, self.binding.reading(hints)) if hints else ()
+            self.binding.sentences(hints, self.binding.bind(hints)) if hints else ()
             for hints in self.chunk_reader.parse(descriptions)
         ]
 
-    def _evidence(self, hints: Sequence[ParsedHint], reading: Reading, located: Located) -> tuple[Evidence, ...]:
+    def _evidence(
+        self, hints: Sequence[ParsedHint], bound_hints: BoundHints, located: PositionDistribution
+    ) -> tuple[Evidence, ...]:
         node = int(located.points[((located.points_m - located.positions[0]) ** 2).sum(axis=1).argmin()])
-        explanations = self.nodes.explain(reading, node)
-        return tuple(self._hint_evidence(node, *row) for row in zip(hints, reading.label, explanations, strict=True))
+        explanations = self.nodes.explain(bound_hints, node)
+        return tuple(
+            self._hint_evidence(node, *row) for row in zip(hints, bound_hints.label, explanations, strict=True)
+        )
 
     def _hint_evidence(self, node: int, hint: ParsedHint, label: Any, explanation: HintExplanation) -> Evidence:
         probability = explanation.probability
@@ -244,13 +252,13 @@ class PosteriorLocalizer:
         shown: dict[str, Any] = {}
         if explanation.part >= 0 and probability >= EXPLAINED_PROBABILITY and hint.absent < EXPLAINED_PROBABILITY:
             gallery = self.gallery
-            instance = int(self.surroundings.things.instance[explanation.part])
+            instance = int(self.surroundings.objects.instance[explanation.part])
             shown = {
-                "at": pair(self.surroundings.positions_m(np.array([node]))[0] - explanation.way_m),
+                "at": pair(self.surroundings.positions_m(np.array([node]))[0] - explanation.offset_m),
                 "instance": gallery.labels[instance],
                 "name": gallery.names[instance],
                 "source_id": gallery.sources[instance],
-                "away_m": float(np.hypot(*explanation.way_m)),
+                "away_m": float(np.hypot(*explanation.offset_m)),
             }
         fits = float(label.max()) >= EXPLAINED_PROBABILITY / 2
         return Evidence(
@@ -268,8 +276,8 @@ class PosteriorLocalizer:
 
 def _is_about_another_place(query: Query) -> bool:
     """Return whether a text is about a place away from the speaker, so its objects need not be near the speaker."""
-    is_told = query.prior is not None and listener_wind(query.description) is not None
-    return is_told or is_meeting(query.description)
+    is_for_listener = query.prior is not None and listener_wind(query.description) is not None
+    return is_for_listener or is_meeting(query.description)
 
 
 def _language_warnings(language: str) -> tuple[str, ...]:

@@ -23,7 +23,7 @@ from index.answering.query import Query
 from models.citymap.cells import CellTable
 from models.citymap.frame import Frame
 from models.citymap.types import Floats
-from models.posterior.distribution import Located
+from models.posterior.distribution import PositionDistribution
 
 MAX_HEAT_POINTS, HEAT_MASS = 500, 0.95  # points of a heat map, and the mass they hold at least
 
@@ -32,7 +32,7 @@ MAX_HEAT_POINTS, HEAT_MASS = 500, 0.95  # points of a heat map, and the mass the
 class LocalizerResult:
     """The result of one query."""
 
-    located: Located | None  # the position distribution; None without usable text or without cells to search
+    located: PositionDistribution | None  # None without usable text or without cells to search
     refusal: str | None = None  # why there is no match, and what to do about it; None if there is one
     evidence: tuple[Evidence, ...] = ()  # one entry per hint, if the localizer gives any
     timings_ms: dict[str, float] = field(default_factory=dict)
@@ -104,7 +104,7 @@ def is_ambiguous(p50: float, cells: CellTable) -> bool:
     return p50 > cells.size_m
 
 
-def _candidate(located: Located, n: int, cells: CellTable, frame: Frame) -> Candidate:
+def _candidate(located: PositionDistribution, n: int, cells: CellTable, frame: Frame) -> Candidate:
     row = int(located.rows[n])
     x, y = pair(cells.center_m[row])
     half = cells.size_m / 2
@@ -120,7 +120,7 @@ def _candidate(located: Located, n: int, cells: CellTable, frame: Frame) -> Cand
     )
 
 
-def _heat_map(located: Located) -> HeatMap:
+def _heat_map(located: PositionDistribution) -> HeatMap:
     """Return the finest squares of which a few hold most of the distribution."""
     spacing_m, points_m, weight = located.spacing_m, located.points_m, located.weight
     order = np.argsort(-weight, kind="stable")[:MAX_HEAT_POINTS]

@@ -19,7 +19,7 @@ from models.language.sentences import split_hints
 from models.paper.fine.fine_model import FineModel
 from models.paper.instance_encoder import CellFeatures
 from models.paper.levels import Levels
-from models.posterior.distribution import Located
+from models.posterior.distribution import PositionDistribution
 
 RANKED_CELLS = 2000  # cells in the softmax; `_probability` bounds the rest
 NO_CELL_WITHIN = "'within' contains no cell centre; widen it, move it onto the map or leave it out"
@@ -130,13 +130,13 @@ class VectorLocalizer:
                 positions[n][:count] = cells.center_m[cell_rows[:count], :2] + (offset[n, :count] - 0.5) * cells.size_m
         return positions
 
-    def _distribution(self, ordered: tuple[Ints, Floats, Floats], positions: Floats) -> Located | None:
+    def _distribution(self, ordered: tuple[Ints, Floats, Floats], positions: Floats) -> PositionDistribution | None:
         rows, scores, probability = ordered
         if not len(rows):
             return None
         # The position lies in the grid square around the centre, or in one as wide as the error of the fine stage.
         error_m = self.refiner.error_m if self.refiner else None
-        return Located(
+        return PositionDistribution(
             rows=rows,
             score=scores,
             probability=probability,

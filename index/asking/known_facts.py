@@ -7,8 +7,8 @@ from index.answering.query import Reply
 from index.asking.question_spec import OPEN_QUESTIONS, UNKNOWN, QuestionSpec
 from models.citymap.gazetteer.gazetteer import Gazetteer
 from models.language.mentions.mentions import Mention
-from models.posterior.binding import LIKELY, TRUSTED
-from models.posterior.likelihood import Reading
+from models.posterior.binding import LIKELY_PROBABILITY, MIN_LABEL_PROBABILITY
+from models.posterior.likelihood import BoundHints
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,18 +26,18 @@ class KnownFacts:
 
     @classmethod
     def from_text(
-        cls, reading: Reading | None, mentions: Sequence[Mention], labels: Sequence[str], gazetteer: Gazetteer
+        cls, bound_hints: BoundHints | None, mentions: Sequence[Mention], labels: Sequence[str], gazetteer: Gazetteer
     ) -> "KnownFacts":
         """Collect the facts that a text states."""
         labelled, with_wind, with_colour = set[str](), set[str](), set[str]()
-        if reading is not None:
-            trust, number = reading.label.max(dim=1)
-            relation, colour = reading.relation[:, :-1].sum(dim=1), 1 - reading.colour[:, -1]
-            for n in (trust >= TRUSTED).nonzero().flatten().tolist():
+        if bound_hints is not None:
+            trust, number = bound_hints.label.max(dim=1)
+            relation, colour = bound_hints.relation[:, :-1].sum(dim=1), 1 - bound_hints.colour[:, -1]
+            for n in (trust >= MIN_LABEL_PROBABILITY).nonzero().flatten().tolist():
                 label = labels[int(number[n])]
                 labelled.add(label)
-                with_wind |= {label} if relation[n] > LIKELY else set()
-                with_colour |= {label} if colour[n] > LIKELY else set()
+                with_wind |= {label} if relation[n] > LIKELY_PROBABILITY else set()
+                with_colour |= {label} if colour[n] > LIKELY_PROBABILITY else set()
         labelled |= {kind.rsplit("/")[-1].replace("_", " ") for mention in mentions for kind in mention.kinds}
         return cls(
             labels=frozenset(labelled),

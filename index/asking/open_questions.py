@@ -12,9 +12,9 @@ from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.errors import ReplyError
 from models.posterior.places.addresses import Addresses
-from models.posterior.places.landmarks import Landmarks, Table
+from models.posterior.places.landmarks import Landmarks, NameProbabilityTable
 from models.posterior.places.name_index import NameIndex
-from models.posterior.questions import said_with_errors
+from models.posterior.questions import name_with_errors
 
 _NO_COLUMNS: Final = np.zeros(0, np.int64)
 MIN_NAME_SHARE: Final = 0.01  # of the mass; a single house number of a city has less
@@ -31,7 +31,7 @@ class OpenQuestions:
         """Return whether the map has names for a kind of question."""
         return self._landmarks.has_corners if kind == "corner" else len(self._name_index(kind)) > 0
 
-    def answered(self, replies: Sequence[Reply]) -> Floats | None:
+    def log_p(self, replies: Sequence[Reply]) -> Floats | None:
         """Return log p(replied names | cell) of cells [N]; None without a name, ReplyError if the map lacks one."""
         total, street = None, self._street_columns(replies)
         for number, reply in enumerate(replies):
@@ -39,7 +39,7 @@ class OpenQuestions:
             if not len(names):
                 continue
             true = self._truth(reply.question, names, street)
-            log_p = np.log(said_with_errors(true, len(self._name_index(reply.question)), len(names)))
+            log_p = np.log(name_with_errors(true, len(self._name_index(reply.question)), len(names)))
             total = log_p if total is None else total + log_p
         return total
 
@@ -60,17 +60,17 @@ class OpenQuestions:
             return self._landmarks.addresses
         return self._landmarks.names if kind == "name" else self._landmarks.streets
 
-    def _table(self, kind: str) -> Table:
+    def _table(self, kind: str) -> NameProbabilityTable:
         """Return the table of true names by cell; corners have their own table."""
         if kind == "address":
-            return self._landmarks.numbered
-        return self._landmarks.said if kind == "name" else self._landmarks.on_street
+            return self._landmarks.address_table
+        return self._landmarks.name_table if kind == "name" else self._landmarks.street_table
 
     def _truth(self, kind: str, names: Ints, street: Ints) -> Floats:
         """Return the chance [N] that one of some names is true in each cell, given the street the speaker may be on."""
         if kind == "corner":
-            return self._landmarks.crossings.of(names, street)
-        return self._table(kind).of(names)
+            return self._landmarks.crossings.probability(names, street)
+        return self._table(kind).probability(names)
 
     def _named_columns(self, number: int, reply: Reply) -> Ints:
         """Return the columns [k] of the names that a reply may mean; none for other questions and for unknown."""

@@ -18,11 +18,11 @@ from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.errors import ReplyError
 from models.language.lexicon.question_classes import load_question_classes
-from models.posterior.distribution import Located, heaviest
-from models.posterior.nearby_objects import Seen, Sights
+from models.posterior.distribution import PositionDistribution, heaviest
+from models.posterior.nearby_objects import NearbyObjects, ObjectsAround
 from models.posterior.node_batch import colour_words
 from models.posterior.places.landmarks import Landmarks
-from models.posterior.questions import Answered, entropy, expected_entropy, expected_entropy_of_names, with_errors
+from models.posterior.questions import ReplyEvidence, entropy, expected_entropy, expected_entropy_of_names, with_errors
 
 MIN_GAIN_BITS: Final = 0.1  # a question that narrows less is not asked
 EFFORT_BITS: Final = {"address": 1.0}  # extra gain that an address must bring, because it takes longer to find out
@@ -41,7 +41,7 @@ class Questions:
 
     def __init__(
         self,
-        sights: Sights,
+        nearby_objects: NearbyObjects,
         labels: Sequence[str],
         palette: Palette,
         gazetteer: Gazetteer,
@@ -49,10 +49,10 @@ class Questions:
         landmarks: Landmarks | None = None,
     ) -> None:
         question_classes = load_question_classes()
-        self._sights, self._words = sights, tuple(colour_words(palette))
+        self._nearby_objects, self._words = nearby_objects, tuple(colour_words(palette))
         self._gazetteer, self._cells, self._landmarks = gazetteer, cells, landmarks
         self._object_classes = {label: n for n, label in enumerate(labels) if label in question_classes.things}
-        self._owning = np.flatnonzero(np.diff(sights.surroundings.cell_starts))  # cells that have nodes
+        self._owning = np.flatnonzero(np.diff(nearby_objects.surroundings.cell_starts))  # cells that have nodes
 
     @cached_property
     def _names(self) -> OpenQuestions:
@@ -60,41 +60,41 @@ class Questions:
 
     @cached_property
     def _middle_nodes(self) -> Ints:
-        return self._sights.surroundings.middles(self._cells.center_m[:, :2].astype(np.float64))
+        return self._nearby_objects.surroundings.middles(self._cells.center_m[:, :2].astype(np.float64))
 
-    def answered(self, replies: Sequence[Reply]) -> Answered | None:
+    def reply_evidence(self, replies: Sequence[Reply]) -> ReplyEvidence | None:
         """Return the likelihood of the replies; None if they add nothing, ReplyError if one does not fit this map."""
         if not replies:
             return None
         read = [self._read(number, reply) for number, reply in enumerate(replies)]
         closed = [(spec, column) for spec, column in read if column >= 0]
-        name_log_p = self._names.answered(replies)
+        name_log_p = self._names.log_p(replies)
         if not closed and name_log_p is None:
             return None
 
         classes = sorted({self._object_classes[spec.names[0]] for spec, _ in closed})
 
         def log_likelihood(nodes: Ints) -> Floats:
-            objects_seen = self._sights.seen(nodes, classes)
-            chances = [with_errors(self._truth(spec, objects_seen))[:, column] for spec, column in closed]
+            objects = self._nearby_objects.around(nodes, classes)
+            chances = [with_errors(self._truth(spec, objects))[:, column] for spec, column in closed]
             total = np.zeros(len(nodes)) if name_log_p is None else name_log_p[self._owner(nodes)]
             for chance in chances:
                 total = total + np.log(chance)
             return total
 
-        cells = np.zeros(len(self._sights.surroundings.cell_starts) - 1)
+        cells = np.zeros(len(self._nearby_objects.surroundings.cell_starts) - 1)
         cells[self._owning] = log_likelihood(self._middle_nodes)
-        return Answered(cells, log_likelihood)
+        return ReplyEvidence(cells, log_likelihood)
 
     def _owner(self, nodes: Ints) -> Ints:
-        return self._sights.surroundings.owner(nodes)
+        return self._nearby_objects.surroundings.owner(nodes)
 
     @property
     def has_names(self) -> bool:
         """Return whether the map has streets or places with names."""
         return self._names.has("street") or self._names.has("name")
 
-    def ask(self, located: Located, known_facts: KnownFacts, replies: Sequence[Reply]) -> Question | None:
+    def ask(self, located: PositionDistribution, known_facts: KnownFacts, replies: Sequence[Reply]) -> Question | None:
         """Return the question that narrows the distribution most; None if none is worth asking."""
         return self._ask(*self._likely_nodes(located), known_facts, replies)
 
@@ -122,7 +122,7 @@ class Questions:
             return None
         return best.question(self._names.likeliest_names(best, mass @ rows[best][0]) if best.is_open else ())
 
-    def _likely_nodes(self, located: Located) -> tuple[Ints, Floats]:
+    def _likely_nodes(self, located: PositionDistribution) -> tuple[Ints, Floats]:
         """Return the heaviest node [C] of each cell of the distribution, and the cells' normalized masses."""
         cell, weight = self._owner(located.points), located.weight
         best = heaviest(cell, weight)
@@ -132,20 +132,20 @@ class Questions:
     def _object_question_gains(
         self, nodes: Ints, mass: Floats, known_facts: KnownFacts, replies: Sequence[Reply]
     ) -> dict[QuestionSpec, float]:
-        objects_seen = self._sights.seen(nodes, sorted(self._object_classes.values()))
+        objects = self._nearby_objects.around(nodes, sorted(self._object_classes.values()))
         before = [spec for reply in replies if (spec := QuestionSpec.parse(reply.question)) is not None]
-        specs = [spec for spec in self._object_questions(mass, objects_seen, known_facts) if spec not in before]
+        specs = [spec for spec in self._object_questions(mass, objects, known_facts) if spec not in before]
         chance = np.zeros((len(specs), len(nodes), MAX_CHOICES + 1))
         for n, spec in enumerate(specs):
-            true = with_errors(self._truth(spec, objects_seen))
+            true = with_errors(self._truth(spec, objects))
             chance[n, :, : true.shape[1]] = true
         gain = entropy(mass) - expected_entropy(mass, chance)
         return dict(zip(specs, gain.tolist(), strict=True))
 
-    def _object_questions(self, mass: Floats, objects_seen: Seen, known_facts: KnownFacts) -> list[QuestionSpec]:
+    def _object_questions(self, mass: Floats, objects: ObjectsAround, known_facts: KnownFacts) -> list[QuestionSpec]:
         specs = []
         for label, number in self._object_classes.items():
-            has = objects_seen.share(number, mass)
+            has = objects.share(number, mass)
             if has < MIN_SHARE:
                 continue
             if label not in known_facts.labels:
@@ -153,7 +153,7 @@ class Questions:
             if label not in known_facts.winds and known_facts.has_winds:
                 specs.append(QuestionSpec("way", (label,)))
             if label not in known_facts.colours and has > 1 - MIN_SHARE:
-                share = objects_seen.colours(number, mass)
+                share = objects.colours(number, mass)
                 colours = [
                     self._words[n] for n in np.argsort(-share, kind="stable")[:MAX_CHOICES] if share[n] >= MIN_SHARE
                 ]
@@ -161,14 +161,14 @@ class Questions:
                     specs.append(QuestionSpec("colour", (label, *colours)))
         return specs
 
-    def _truth(self, spec: QuestionSpec, objects_seen: Seen) -> Floats:
+    def _truth(self, spec: QuestionSpec, objects: ObjectsAround) -> Floats:
         """Return the chance [M, K] that each reply to a closed question is true at the observed nodes [M]."""
         number = self._object_classes[spec.names[0]]
         if spec.kind == "near":
-            return objects_seen.is_near(number)
+            return objects.is_near(number)
         if spec.kind == "way":
-            return objects_seen.quarter(number)
-        return objects_seen.colour(number, np.array([self._words.index(word) for word in spec.names[1:]]))
+            return objects.quarter(number)
+        return objects.colour(number, np.array([self._words.index(word) for word in spec.names[1:]]))
 
     def _read(self, number: int, reply: Reply) -> tuple[QuestionSpec, int]:
         """Return the question of a reply and the column of its choice; -1 for unknown and for names."""

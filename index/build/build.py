@@ -112,7 +112,7 @@ class IndexJob:
                 shards_data = shards.read(count, self._encoder(models).levels, source.data.cells)
                 scanned = [shard_data.scanned for shard_data in shards_data if shard_data.scanned is not None]
                 surroundings = (
-                    ScanNeighbourIndex.joined(scanned)
+                    ScanNeighbourIndex.concatenate(scanned)
                     if scanned
                     else build_neighbour_index(source.geometry(), source.data.cells)
                 )

@@ -105,8 +105,8 @@ class Publisher:
         levels = LevelTable.concatenate([part.levels for part in parts])
         if not levels.is_empty:
             levels.save(directory)
-        save_hint_features(directory, self.retriever, template_hints(data.gallery, surroundings.things, data.palette))
-        statements = Statements.joined([part.rows for part in parts], len(colour_words(data.palette)))
+        save_hint_features(directory, self.retriever, template_hints(data.gallery, surroundings.objects, data.palette))
+        statements = Statements.concatenate([part.rows for part in parts], len(colour_words(data.palette)))
         statements.save(directory, self.posterior_fingerprint)
 
 

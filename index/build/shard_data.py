@@ -65,10 +65,10 @@ class ShardData:
         if isinstance(source, MapSource) and isinstance(surroundings, PieceNeighbourIndex):
             source.defer_parts(surroundings.cut)
         report("tabulate statements", 0, 0)
-        data, objects = source.data, surroundings.things
+        data, objects = source.data, surroundings.objects
         label, rgb = torch.from_numpy(objects.labels(data.gallery)[1]), torch.from_numpy(objects.rgb.astype(np.float32))
         with torch.inference_mode():
-            words = likelihood.words(rgb, data.palette)
+            words = likelihood.colour_word_p(rgb, data.palette)
         rows_of_statements = statement_rows(likelihood, surroundings, label, rgb, words)
         scanned = surroundings if isinstance(surroundings, ScanNeighbourIndex) else None
         return cls(vectors, levels, rows_of_statements, scanned)

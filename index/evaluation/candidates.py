@@ -24,7 +24,7 @@ def candidate_recall(queries: Queries, posterior: PosteriorLocalizer) -> list[di
     for q, (raw, sentences) in enumerate(zip(raw_sentences(descriptions), rendered, strict=True)):
         texts = retriever.encode_texts([raw, sentences or raw])
         hints = posterior.chunk_reader.parse(descriptions[q : q + 1])[0]
-        by_list = posterior.nodes.cell_scores(posterior.binding.reading(hints)) if hints else np.zeros(deepest)
+        by_list = posterior.nodes.cell_scores(posterior.binding.bind(hints)) if hints else np.zeros(deepest)
         orders = [*posterior.ranker.search(texts, deepest)[1], np.argsort(-by_list, kind="stable")[:deepest]]
         for n, order in enumerate(orders):
             position = np.flatnonzero(order == queries.truth[q])

@@ -63,7 +63,7 @@ def on_some_cells(localizer: CellLocalizer, data: MapData, rows: Ints) -> CellLo
     if isinstance(localizer, VectorLocalizer):
         how = localizer.refiner, localizer.sentences, localizer.depth
         return VectorLocalizer(ranker, data.gallery, data.frame, data.grid_m, *how)
-    parts = count_parts(localizer.surroundings.things, localizer.gallery.cells, rows)
+    parts = count_parts(localizer.surroundings.objects, localizer.gallery.cells, rows)
     given = localizer.weights, data.gallery, data.palette, data.frame, localizer.surroundings.take(rows, parts), ranker
     if localizer.places is None:
         return PosteriorLocalizer(*given, grid_m=data.grid_m)

@@ -113,9 +113,9 @@ def nearest_hints(
         nodes_m = around.positions_m(nodes)
         nearest = np.hypot(*(nodes_m - position).T).argmin()
         here = around.around(nodes[[nearest]])
-        offset = position - (nodes_m[nearest] - here.way_m)
+        offset = position - (nodes_m[nearest] - here.offset_m)
         nearest = np.argsort(np.hypot(*offset.T), kind="stable")[:count]
-        hints.append(tuple(_hint(data, around.things, int(here.part[k]), offset[k]) for k in nearest))
+        hints.append(tuple(_hint(data, around.objects, int(here.part[k]), offset[k]) for k in nearest))
     return hints
 
 
@@ -186,7 +186,7 @@ def _damaged_localizers(
 ) -> tuple[VectorLocalizer, PosteriorLocalizer]:
     data, ranker = damage.data, vectors.ranker
     around = posterior.surroundings
-    parts = _count_kept_parts(around.things, posterior.gallery.cells.parts, damage.is_kept)
+    parts = _count_kept_parts(around.objects, posterior.gallery.cells.parts, damage.is_kept)
     surroundings = around.take(np.arange(len(data.cells)), parts)
     encoded = Ranker.from_cells(ranker.retriever, data.cells, data.gallery.labels, ranker.depth)
     return vectors_of_map(data, encoded), posterior_of_map(posterior.weights, data, encoded, surroundings)

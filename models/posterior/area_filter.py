@@ -1,4 +1,4 @@
-"""Where somebody may be, when the question says so: without torch, since the service reads requests without it."""
+"""The area that a request allows. Without torch, because the service reads requests without it."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -10,13 +10,8 @@ from models.citymap.types import Floats
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Inside:
-    """Where somebody may be alone.
+class AreaFilter:
+    """The area outside which a position has no probability."""
 
-    Attributes:
-        cells: [N] whether a node of each cell is there.
-        holds: whether positions [M, 2] are.
-    """
-
-    cells: npt.NDArray[np.bool_]
-    holds: Callable[[Floats], npt.NDArray[np.bool_]]
+    has_node: npt.NDArray[np.bool_]  # [N] whether a node of each cell is inside
+    contains: Callable[[Floats], npt.NDArray[np.bool_]]  # whether positions [M, 2] are inside

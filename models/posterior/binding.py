@@ -1,6 +1,7 @@
-"""What a reader noticed, in a map's own words."""
+"""Bind parsed hints to the labels and colours of a map."""
 
 from collections.abc import Sequence
+from typing import Final
 
 import numpy as np
 import torch
@@ -13,19 +14,20 @@ from models.language.labels import MAX_CACHED_PHRASES, BoundLabels, LabelMatcher
 from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import COLOURS
 from models.language.recent_features import RecentFeatures
-from models.posterior.likelihood import Reading
+from models.posterior.likelihood import BoundHints
 from models.posterior.node_batch import colour_words
 
-LIKELY, TRUSTED = 0.5, 0.25  # of being absent; of a label, from which on it is said
-_ALIKE = 0.15  # in units of rgb: how far a colour may be from one that the palette has
+LIKELY_PROBABILITY: Final = 0.5  # of absence, a wind or a colour
+MIN_LABEL_PROBABILITY: Final = 0.25  # a less certain label is not used in words
+_COLOUR_SPREAD: Final = 0.15  # in units of rgb, of similar colours; not measured
 
 
 class Binding:
-    """A map's labels and colours, ready to take what is said.
+    """The labels and colours of a map.
 
     Args:
         matcher: compares nouns with labels.
-        labels: the map's, each once.
+        labels: of the map, each once.
         palette: its colour words.
     """
 
@@ -37,55 +39,51 @@ class Binding:
         self._label = RecentFeatures(self._labels_of, MAX_CACHED_PHRASES)
 
     def _labels_of(self, nouns: Sequence[str]) -> Tensor:
-        """[S, L] probability of each label; noun by noun, so that what stands beside one changes nothing."""
+        """Return the probability [S, L] of each label, one noun at a time, so that nouns do not affect each other."""
         rows = [self.matcher(noun[None], self._bound) for noun in self.matcher.embed(nouns)]
         return torch.cat(rows).exp()[:, :-1]
 
     @torch.no_grad()
-    def reading(self, noticed: Sequence[ParsedHint]) -> Reading:
-        """Hints as distributions over what the map has."""
-        label = self._label(thing.noun for thing in noticed)
-        said = [float("nan") if thing.distance_m is None else thing.distance_m for thing in noticed]
-        return Reading(
-            relation=torch.stack([thing.relation for thing in noticed]),
-            label=torch.stack([label[thing.noun] for thing in noticed]),
-            colour=torch.stack([thing.colour for thing in noticed]) @ self._colours,
-            distance_m=torch.tensor(said),
-            absent=torch.tensor([thing.absent for thing in noticed]),
+    def bind(self, hints: Sequence[ParsedHint]) -> BoundHints:
+        """Return hints, at least one, as distributions over what the map has."""
+        label = self._label(hint.noun for hint in hints)
+        distance_m = [float("nan") if hint.distance_m is None else hint.distance_m for hint in hints]
+        return BoundHints(
+            relation=torch.stack([hint.relation for hint in hints]),
+            label=torch.stack([label[hint.noun] for hint in hints]),
+            colour=torch.stack([hint.colour for hint in hints]) @ self._colours,
+            distance_m=torch.tensor(distance_m),
+            absent=torch.tensor([hint.absent for hint in hints]),
         )
 
-    def sentences(self, hints: Sequence[ParsedHint], reading: Reading) -> tuple[str, ...]:
-        """Hints in the words that a retriever knows: template sentences of the map's own classes and colours.
+    def sentences(self, hints: Sequence[ParsedHint], bound_hints: BoundHints) -> tuple[str, ...]:
+        """Return hints as template sentences with the map's labels and colours, which a retriever knows.
 
-        A hint that is absent, means nothing that the map has, or says no direction has none.
-
-        Args:
-            hints: as they were read.
-            reading: of them.
+        A hint about something absent or unknown to the map has none.
         """
-        label, trust = reading.label.argmax(dim=1).tolist(), reading.label.amax(dim=1).tolist()
-        colour = reading.colour.argmax(dim=1).tolist()
-        direction = (reading.relation @ _DIRECTION_OF_RELATION).argmax(dim=1).tolist()
+        label, trust = bound_hints.label.argmax(dim=1).tolist(), bound_hints.label.amax(dim=1).tolist()
+        colour = bound_hints.colour.argmax(dim=1).tolist()
+        direction = (bound_hints.relation @ _DIRECTION_OF_RELATION).argmax(dim=1).tolist()
         return tuple(
             render_hint(Hint(DIRECTIONS[direction[n]], self.labels[label[n]], (*self._words, None)[colour[n]]))
             for n, hint in enumerate(hints)
-            if hint.absent < LIKELY and trust[n] >= TRUSTED
+            if hint.absent < LIKELY_PROBABILITY and trust[n] >= MIN_LABEL_PROBABILITY
         )
 
-    def nothing(self) -> Reading:
-        """A text that names nothing: one hint that anything fits."""
+    def uninformative_hint(self) -> BoundHints:
+        """Return one hint that anything fits, for a text without hints."""
         colour = torch.zeros(1, self._colours.shape[1])
         colour[0, -1] = 1.0
         label = torch.full((1, len(self.labels)), 1 / len(self.labels))
         relation = torch.zeros(1, len(RELATIONS))
         relation[0, -1] = 1.0
-        return Reading(relation, label, colour, torch.tensor([float("nan")]), torch.zeros(1))
+        return BoundHints(relation, label, colour, torch.tensor([float("nan")]), torch.zeros(1))
 
 
 def colour_table(palette: Palette) -> Tensor:
-    """[C + 1, W + 1] from the reader's colours to a palette's words; the last of both, that none is said.
+    """Return the share [C + 1, W + 1] of each palette word in each of the reader's colours; last, for none.
 
-    A colour that the palette has no word for goes to the words of the most alike.
+    A colour without a word in the palette is shared among the words of similar colours.
     """
     words = colour_words(palette)
     centers = np.asarray(palette.centers)
@@ -96,14 +94,14 @@ def colour_table(palette: Palette) -> Tensor:
             table[row, words.index(colour)] = 1.0
             continue
         distance = np.linalg.norm(centers[:, None] - centers_of(colour), axis=-1).min(axis=1) / 255
-        weight = np.exp(-(distance**2) / (2 * _ALIKE**2))
+        weight = np.exp(-(distance**2) / (2 * _COLOUR_SPREAD**2))
         for word, value in zip(palette.words, weight / weight.sum(), strict=True):
             table[row, words.index(word)] += float(value)
     return table
 
 
 def centers_of(colour: str) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
-    """[n, 3] rgb centres (0..255) of a colour of the reader."""
+    """Return the rgb centres [n, 3] (0..255) of a colour of the reader."""
     for palette in (BASIC_PALETTE, KITTI360_PALETTE):
         if colour in palette.words:
             return np.array([c for word, c in zip(palette.words, palette.centers, strict=True) if word == colour])
@@ -111,7 +109,7 @@ def centers_of(colour: str) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]
 
 
 def _directions_of_relations() -> Tensor:
-    """[10, 5] how much of each relation each of DIRECTIONS is: between two winds half of both, "near" right at it."""
+    """Return the share [10, 5] of each of DIRECTIONS in each relation; "near" counts as "on-top"."""
     table = torch.zeros(len(RELATIONS), len(DIRECTIONS))
     for row, relation in enumerate(RELATIONS):
         winds = [n for n, direction in enumerate(DIRECTIONS[:4]) if direction in relation]

@@ -8,7 +8,7 @@ from models.language.labels import LabelMatcher
 from models.language.mentions.cue_reader import CueReader
 from models.language.reader import Reader, ReaderConfig
 from models.language.text_encoder import TextEncoder, TextEncoderModel, fingerprint_of
-from models.posterior.distribution import TOLD
+from models.posterior.distribution import RADIUS_MASSES
 from models.posterior.likelihood import Likelihood
 from models.posterior.places.kernels import PlaceKernels
 
@@ -23,7 +23,7 @@ class PosteriorConfig(ReaderConfig):
         grammar_sha256: of the phrases that the reader was trained on.
     """
 
-    radius_held: tuple[float, float] = TOLD
+    radius_held: tuple[float, float] = RADIUS_MASSES
     place_scale: float = 1.0
     meeting_scale: float = 1.0
     grammar_sha256: str = ""

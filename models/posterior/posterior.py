@@ -1,4 +1,4 @@
-"""Where a description was said: candidates, a distribution over their nodes, and what explains each hint."""
+"""The posterior of a gallery: densities at the nodes of cells, and what explains each hint (docs/method.md, M22)."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -13,50 +13,48 @@ from models.citymap.cells import CellTable
 from models.citymap.colours import Palette
 from models.citymap.points import Ints, ranges
 from models.citymap.types import Floats
-from models.posterior.area_filter import Inside
-from models.posterior.likelihood import Likelihood, Reading
-from models.posterior.nearby_objects import Sights
+from models.posterior.area_filter import AreaFilter
+from models.posterior.likelihood import BoundHints, Likelihood
+from models.posterior.nearby_objects import NearbyObjects
 from models.posterior.neighbours.neighbour_index import NeighbourIndex
 from models.posterior.neighbours.nodes import is_coarse
-from models.posterior.node_batch import NodeBatch, usual_statements
+from models.posterior.node_batch import NodeBatch, mean_statements
 from models.posterior.places.field import PlaceEvidence
-from models.posterior.questions import Answered
+from models.posterior.questions import ReplyEvidence
 from models.posterior.statements import Statements
 
-CANDIDATES = 100  # cells whose nodes are looked at
+CANDIDATE_CELLS: Final = 100  # cells whose nodes are evaluated
 LogPrior = Callable[[Floats], Floats]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class PositionEvidence:
+    """Everything that is known about a position; None for nothing of a kind."""
+
+    hints: BoundHints | None = None
+    places: PlaceEvidence | None = None
+    replies: ReplyEvidence | None = None
+    log_prior: LogPrior | None = None  # log density of positions [M, 2], up to a constant
+    area: AreaFilter | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Field:
-    """A distribution over the nodes of some cells.
+    """Unnormalised log densities at the nodes of K cells."""
 
-    Attributes:
-        cells: [K] rows, as they were given.
-        nodes: [M] rows of the surroundings' nodes.
-        cell: [M] which of `cells` owns each.
-        log_p: [M] log p(T | x) + log prior, not normalised.
-    """
-
-    cells: Ints
-    nodes: Ints
-    cell: Ints
-    log_p: Floats
+    cells: Ints  # [K]
+    nodes: Ints  # [M]
+    cell: Ints  # [M] index into `cells` of the owner of each node
+    log_p: Floats  # [M] log p(T | x) + log prior
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class HintExplanation:
-    """What explains a hint at a node.
+    """The explanation of a hint at a node."""
 
-    Attributes:
-        probability: that something does.
-        part: which of the surroundings' things; -1 for none.
-        way_m: [2] the node minus the closest point of it.
-    """
-
-    probability: float
-    part: int
-    way_m: Floats
+    probability: float  # that an object explains the hint
+    part: int  # index of the object; -1 for none
+    offset_m: Floats  # [2] the node minus the object's closest point
 
 
 UNEXPLAINED: Final = HintExplanation(0.0, -1, np.zeros(2))
@@ -67,11 +65,11 @@ class HintPosterior:
 
     Args:
         likelihood: fitted.
-        surroundings: of the gallery.
+        surroundings: neighbour index of the gallery.
         cells: the gallery.
-        label: [P] label of each of the surroundings' things, a number.
+        label: [P] label number of each object of `surroundings`.
         palette: the map's colour words.
-        statements: of the gallery, if they are at hand.
+        statements: of the gallery; None to compute them.
     """
 
     @torch.inference_mode()
@@ -85,84 +83,75 @@ class HintPosterior:
         statements: Statements | None = None,
     ) -> None:
         self.likelihood, self.surroundings, self.cells = likelihood, surroundings, cells
-        self._label = torch.from_numpy(label)
-        self._rgb = torch.from_numpy(surroundings.things.rgb.astype(np.float32))
-        self._palette = palette
-        self.usual = usual_statements(self._label, self._rgb, torch.from_numpy(surroundings.things.parts), palette)
-        self._is_vague, self._tables = torch.from_numpy(surroundings.things.is_vague), likelihood.tables()
-        self.statements = statements or Statements.of(
-            likelihood, surroundings, self._label, self._rgb, likelihood.words(self._rgb, palette)
+        objects = surroundings.objects
+        self._label, self._palette = torch.from_numpy(label), palette
+        self._rgb = torch.from_numpy(objects.rgb.astype(np.float32))
+        self.mean_statements = mean_statements(self._label, self._rgb, torch.from_numpy(objects.parts), palette)
+        self._is_vague, self._tables = torch.from_numpy(objects.is_vague), likelihood.tables()
+        self.statements = statements or Statements.from_gallery(
+            likelihood, surroundings, self._label, self._rgb, likelihood.colour_word_p(self._rgb, palette)
         )
         self.extent_m = cells.extent_m
-        self.without_nodes = np.flatnonzero(np.diff(surroundings.cell_starts) == 0)  # cells
-        self.sights = Sights(surroundings, label, lambda things: self._words(torch.from_numpy(things)).numpy())
+        self.cells_without_nodes = np.flatnonzero(np.diff(surroundings.cell_starts) == 0)
+        self.nearby_objects = NearbyObjects(
+            surroundings, label, lambda parts: self._colour_word_p(torch.from_numpy(parts)).numpy()
+        )
 
     @torch.inference_mode()
-    def cell_scores(self, reading: Reading, some: range | None = None) -> Floats:
-        """[N] about log p(T | cell), of every cell of the gallery, or of some as `Statements.scores`."""
-        return self.statements.scores(reading, some)
+    def cell_scores(self, hints: BoundHints, cells: range | None = None) -> Floats:
+        """Return about log p(T | cell) [N] of the gallery; -inf outside `cells`."""
+        return self.statements.scores(hints, cells)
 
     @torch.inference_mode()
     def field(
-        self,
-        reading: Reading | None,
-        cells: Ints,
-        log_prior: LogPrior | None = None,
-        inside: Inside | None = None,
-        told: PlaceEvidence | None = None,
-        answered: Answered | None = None,
-        times: Ints | None = None,
-        between: bool = False,
+        self, evidence: PositionEvidence, cells: Ints, coarsening: Ints | None = None, *, is_rest: bool = False
     ) -> Field:
-        """The posterior over the nodes of some cells.
+        """Return the posterior over the nodes of cells [K].
 
         Args:
-            reading: hints about what is near; None for none.
-            cells: [K] rows.
-            log_prior: log-density of positions [M, 2]; None for none.
-            inside: where alone it can be; None for everywhere.
-            told: the places that were named, if any.
-            answered: what answers to questions tell, if any.
-            times: [K] of which cell those nodes alone that a grid so many times as coarse has; None for all.
-            between: the others instead.
+            evidence: about the position.
+            cells: rows of the gallery.
+            coarsening: [K] factor of the grid of each cell whose nodes are evaluated; None for all nodes.
+            is_rest: evaluate only the nodes that the coarser grid lacks.
         """
         s = self.surroundings
         begin, end = s.cell_starts[cells], s.cell_starts[cells + 1]
         nodes, cell = ranges(begin, end), np.repeat(np.arange(len(cells)), end - begin)
         positions_m = s.positions_m(nodes)
-        if inside is not None:
-            kept = inside.holds(positions_m)
-            nodes, cell, positions_m = nodes[kept], cell[kept], positions_m[kept]
-        if times is not None:
-            kept = is_coarse(positions_m, times[cell]) != between
-            nodes, cell, positions_m = nodes[kept], cell[kept], positions_m[kept]
+        if evidence.area is not None:
+            chosen = evidence.area.contains(positions_m)
+            nodes, cell, positions_m = nodes[chosen], cell[chosen], positions_m[chosen]
+        if coarsening is not None:
+            chosen = is_coarse(positions_m, coarsening[cell]) != is_rest
+            nodes, cell, positions_m = nodes[chosen], cell[chosen], positions_m[chosen]
         log_p: Floats = np.zeros(len(nodes))
-        if reading is not None:
+        if evidence.hints is not None:
             batch = NodeBatch.from_neighbours(s.around(nodes), len(nodes), self._label, self._rgb, self._is_vague)
-            log_p = self.likelihood(reading, batch, self._palette, self.usual, self._tables).double().numpy()
-        if told is not None:
-            log_p = log_p + told.at(positions_m, cell)
-        if answered is not None:
-            log_p = log_p + answered.at(nodes)
-        if log_prior is not None:
-            log_p = log_p + log_prior(positions_m)
+            near = self.likelihood(evidence.hints, batch, self._palette, self.mean_statements, self._tables)
+            log_p = near.double().numpy()
+        if evidence.places is not None:
+            log_p = log_p + evidence.places.log_p(positions_m, cell)
+        if evidence.replies is not None:
+            log_p = log_p + evidence.replies.log_p(nodes)
+        if evidence.log_prior is not None:
+            log_p = log_p + evidence.log_prior(positions_m)
         return Field(cells, nodes, cell, log_p)
 
     @torch.inference_mode()
-    def _words(self, things: Tensor) -> Tensor:
-        """[n, W] chance of each colour word of some things [n]: a table of all would be the largest of a city."""
-        return self.likelihood.words(self._rgb.index_select(0, things), self._palette)
+    def _colour_word_p(self, parts: Tensor) -> Tensor:
+        """Return the probability [n, W] of each colour word; a table of all objects of a city would be too large."""
+        return self.likelihood.colour_word_p(self._rgb.index_select(0, parts), self._palette)
 
     @torch.inference_mode()
-    def explain(self, reading: Reading, node: int) -> list[HintExplanation]:
-        """For each hint what explains it best at a node."""
+    def explain(self, hints: BoundHints, node: int) -> list[HintExplanation]:
+        """Return the best explanation of each hint at a node."""
         around = self.surroundings.around(np.array([node]))
         if not len(around.part):
-            return [UNEXPLAINED] * len(reading.label)
+            return [UNEXPLAINED] * len(hints.label)
         batch = NodeBatch.from_neighbours(around, 1, self._label, self._rgb, self._is_vague)
-        best, probability = self.likelihood.explain(reading, batch, self._palette, self.usual, self._tables)
-        way_m = around.way_m
+        best, probability = self.likelihood.explain(hints, batch, self._palette, self.mean_statements, self._tables)
+        offset_m = around.offset_m
         return [
-            HintExplanation(p, int(around.part[row]), way_m[row])
+            HintExplanation(p, int(around.part[row]), offset_m[row])
             for row, p in zip(best.tolist(), probability.tolist(), strict=True)
         ]

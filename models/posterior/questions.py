@@ -1,4 +1,4 @@
-"""Which question narrows a posterior most, and what answers make of it."""
+"""The likelihood of replies, and the expected entropy after a question (docs/method.md, questions)."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -10,90 +10,81 @@ from scipy.sparse import csr_array, find
 from models.citymap.points import Ints
 from models.citymap.types import Floats
 
-WRONG: Final = 0.1  # of people's answers, those that are not what the map has
+WRONG_REPLY_SHARE: Final = 0.1  # assumed, not measured
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Answered:
-    """What answers tell of positions, for `locate`.
+class ReplyEvidence:
+    """The evidence of replies about positions."""
 
-    Attributes:
-        cells: [N] about log p(answers | cell).
-        at: [M] log p(answers | x) of rows [M] of the surroundings' nodes.
-    """
-
-    cells: Floats
-    at: Callable[[Ints], Floats]
+    cell_log_p: Floats  # [N] approximate log p(replies | cell)
+    log_p: Callable[[Ints], Floats]  # log p(replies | node) of nodes [M]
 
 
 def with_errors(true: Floats) -> Floats:
-    """[..., K] chance of each answer, of which some are wrong.
-
-    Args:
-        true: [..., K] chance that each is the right one; they add up to 1.
-    """
+    """Return the probability [..., K] of each reply from the probability [..., K] that it is true."""
     others = max(1, true.shape[-1] - 1)
-    chance: Floats = (1 - WRONG) * true + WRONG * (1 - true) / others
-    return chance
+    probability: Floats = (1 - WRONG_REPLY_SHARE) * true + WRONG_REPLY_SHARE * (1 - true) / others
+    return probability
 
 
-def said_with_errors(true: Floats, names: int, said: int = 1) -> Floats:
-    """[...] chance that a name is said of which any other of a map may be said in error.
+def name_with_errors(true: Floats, names: int, matches: int = 1) -> Floats:
+    """Return the probability [...] of a replied name; errors may name anything on the map.
 
     Args:
-        true: [...] chance that it is the right one.
-        names: K of the map.
-        said: how many of these it may mean, where a part of a name is said.
+        true: [...] probability that the name is true.
+        names: number of names of the map.
+        matches: number of names that the reply may mean.
     """
-    wrong = WRONG / max(1, names - 1)
-    chance: Floats = (1 - WRONG - wrong) * true + said * wrong
-    return chance
+    wrong = WRONG_REPLY_SHARE / max(1, names - 1)
+    probability: Floats = (1 - WRONG_REPLY_SHARE - wrong) * true + matches * wrong
+    return probability
 
 
 def entropy(mass: Floats) -> float:
-    """Bits of a distribution [C]."""
-    some = mass[mass > 0]
-    return float(-(some * np.log2(some)).sum())
+    """Return the entropy of a distribution [C], bits."""
+    positive = mass[mass > 0]
+    return float(-(positive * np.log2(positive)).sum())
 
 
-def expected_entropy(mass: Floats, chance: Floats) -> Floats:
-    """[Q] bits that are left when each question is answered: H(X | A) = sum_a p(a) H(X | a).
+def expected_entropy(mass: Floats, reply_p: Floats) -> Floats:
+    """Return the expected entropy [Q] after each question, bits: H(X | A) = sum_a p(a) H(X | a).
 
-    "I don't know" is as likely anywhere, so it is no answer here.
+    "I don't know" is equally likely everywhere, so it does not count.
 
     Args:
-        mass: [C] probability of each place, adding up to 1.
-        chance: [Q, C, K] p(a | x) of each question's answers; zeros where a question has fewer than K.
+        mass: [C] probability of each position, adding up to 1.
+        reply_p: [Q, C, K] p(a | x) of each question's replies; zeros where a question has fewer than K.
     """
-    joint = mass[None, :, None] * chance
-    answer = joint.sum(axis=1, keepdims=True)  # p(a)
+    joint = mass[None, :, None] * reply_p
+    marginal = joint.sum(axis=1, keepdims=True)  # p(a)
     # p(a) H(X | a) = - sum_x p(x, a) log p(x | a)
-    share = joint / np.maximum(answer, 1e-300)
+    share = joint / np.maximum(marginal, 1e-300)
     left: Floats = -(joint * np.log2(np.maximum(share, 1e-300))).sum(axis=(1, 2))
     return left
 
 
 def expected_entropy_of_names(mass: Floats, true: csr_array, names: int) -> float:
-    """Bits that are left when a name is asked for; who has none to say says "I don't know", which leaves all.
+    """Return the expected entropy after asking for a name, bits; people without one say "I don't know".
 
     Args:
-        mass: [C] probability of each place, adding up to 1.
-        true: [C, K] chance that each name is the right one; rows may add up to less than 1.
-        names: K of the map; columns of `true` may be fewer, the others are said in error alone.
+        mass: [C] probability of each position, adding up to 1.
+        true: [C, K] probability that each name is true; rows may add up to less than 1.
+        names: number of names of the map; those without a column are said in error alone.
     """
-    place, name, chance = find(true)
-    wrong, before = float(said_with_errors(np.zeros(1), names)[0]), entropy(mass)
-    # A name that is right nowhere leaves all; only what the others leave needs to be added up. Of each, places where it
-    # is wrong have the joint probability m w, of which all logarithms together are known.
+    position, name, p = find(true)
+    wrong, before = float(name_with_errors(np.zeros(1), names)[0]), entropy(mass)
+    # A name that is true nowhere changes nothing, so only the others are added up. Where one of these is wrong, the
+    # joint probability is mass * wrong, and the sum of all these logarithms is known.
     column = np.unique(name, return_inverse=True)[1]
-    right = mass[place] * said_with_errors(chance, names)
-    in_error = mass[place] * wrong
+    right = mass[position] * name_with_errors(p, names)
+    in_error = mass[position] * wrong
     count = int(column.max(initial=-1)) + 1
-    answer = wrong + np.bincount(column, right - in_error, count)  # p(a)
-    some = _log(right) * right - _log(in_error) * in_error
-    log_joint = wrong * (np.log2(wrong) - before) + np.bincount(column, some, count)
-    nothing = 1 - answer.sum() - (names - count) * wrong
-    return float((answer * _log(answer) - log_joint).sum() + before * ((names - count) * wrong + nothing))
+    marginal = wrong + np.bincount(column, right - in_error, count)  # p(a)
+    difference = _log(right) * right - _log(in_error) * in_error
+    log_joint = wrong * (np.log2(wrong) - before) + np.bincount(column, difference, count)
+    no_reply = 1 - marginal.sum() - (names - count) * wrong
+    return float((marginal * _log(marginal) - log_joint).sum() + before * ((names - count) * wrong + no_reply))
 
 
 def _log(values: Floats) -> Floats:

@@ -13,41 +13,33 @@ from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.strings import Categorical
 
-FLAT_M: Final = 0.5  # lower objects are ground
+MAX_GROUND_HEIGHT_M: Final = 0.5
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MapObjects:
-    """A table of P objects.
+    """A table of P objects."""
 
-    Attributes:
-        instance: [P] int32, row of the gallery's labels, names and sources.
-        rgb: [P, 3] float32 colour, NaN where unknown.
-        parts: [P] int32, how many parts of cells are of each.
-        is_flat: [P] bool, whether one stands on it rather than beside it.
-        are_parts: whether they are parts, not instances.
-    """
-
-    instance: Ints
-    rgb: Floats
-    parts: Ints
-    is_flat: npt.NDArray[np.bool_]
-    are_parts: bool = False
+    instance: Ints  # [P] int32, row of the gallery's labels, names and sources
+    rgb: Floats  # [P, 3] float32 colour, NaN where unknown
+    parts: Ints  # [P] int32, number of parts of cells that show it
+    is_flat: npt.NDArray[np.bool_]  # [P] whether people stand on it rather than beside it
+    are_parts: bool = False  # whether they are parts, not instances
 
     @classmethod
-    def of_parts(cls, parts: PartTable) -> "MapObjects":
+    def from_parts(cls, parts: PartTable) -> "MapObjects":
         """Return the parts of cells as objects."""
-        is_flat = (parts.high_m - parts.low_m)[:, 2] < FLAT_M
+        is_flat = (parts.high_m - parts.low_m)[:, 2] < MAX_GROUND_HEIGHT_M
         return cls(parts.instance, parts.rgb, np.ones(len(parts.instance), np.int32), is_flat, are_parts=True)
 
     @classmethod
-    def of_instances(cls, bodies: PieceGeometry, parts: PartTable) -> "MapObjects":
+    def from_instances(cls, bodies: PieceGeometry, parts: PartTable) -> "MapObjects":
         """Return the instances of a map as objects."""
         instances = len(bodies.rgb)
         high = np.zeros(instances)
         np.maximum.at(high, bodies.pieces.instance, np.ptp(bodies.pieces.heights_m, axis=1))
         shown = np.bincount(parts.instance, minlength=instances).astype(np.int32)
-        return cls(np.arange(instances, dtype=np.int32), bodies.rgb, shown, high < FLAT_M)
+        return cls(np.arange(instances, dtype=np.int32), bodies.rgb, shown, high < MAX_GROUND_HEIGHT_M)
 
     @property
     def is_vague(self) -> npt.NDArray[np.bool_]:

@@ -1,8 +1,8 @@
 """The neighbour index of a map, which the hint posterior reads.
 
-Positions are the nodes of a fine grid, each owned by the cell whose centre is nearest. Of a node is known, of every
-thing within 15 m, the way from the thing's closest point, whether or not the thing is in the owner's cube: hints speak
-of things that a cell has cut off. Of an instance that is in several pieces around it, each is known.
+Positions are the nodes of a fine grid; each is owned by the cell with the nearest centre. A node knows every object
+within 15 m by the offset from its closest point, also if the owner's cube has cut it off. An instance in several pieces
+around the node counts once per piece.
 """
 
 from pathlib import Path
@@ -25,7 +25,7 @@ class NeighbourIndex(Protocol):
     """The nodes of a map and their neighbours."""
 
     @property
-    def things(self) -> MapObjects:
+    def objects(self) -> MapObjects:
         """The objects that may be neighbours."""
         ...
 
@@ -48,7 +48,7 @@ class NeighbourIndex(Protocol):
 
     @property
     def cuts(self) -> bool:
-        """Whether it can also cut the parts of cells, so that they need not be stored."""
+        """Whether it can also cut the parts of cells, which are then not stored."""
         ...
 
     @property
@@ -64,8 +64,8 @@ class NeighbourIndex(Protocol):
         """Return the index of a subset of cells.
 
         Args:
-            cells: rows, in the order wanted.
-            parts: [P] how many of their parts are of each thing; of things without any nothing is known.
+            cells: rows, in the order of the result.
+            parts: [P] number of their parts that show each object; objects without any are dropped.
         """
         ...
 
@@ -80,22 +80,22 @@ def build_neighbour_index(
     """Build the neighbour index of a gallery.
 
     Args:
-        bodies: what stands in the map.
+        bodies: the geometry of the map.
         cells: the gallery.
-        progress: called with what is done and to do.
-        rows: the cells that are wanted, one after the other, with the nodes that they own among all; None for all.
+        progress: called with instances done and to do.
+        rows: consecutive cells to build it for, with the nodes that they own; None for all.
     """
     if not isinstance(bodies, PieceGeometry):
         return ScanNeighbourIndex.build(bodies, cells, progress, rows)
     every = PieceNeighbourIndex.build(bodies, cells)
-    return every if rows is None else every.take(np.arange(rows.start, rows.stop), every.things.parts)
+    return every if rows is None else every.take(np.arange(rows.start, rows.stop), every.objects.parts)
 
 
 def load_neighbour_index(directory: Path, cells: CellTable) -> NeighbourIndex:
     """Load a saved index.
 
     Raises:
-        IndexBroken: a file is missing or holds something else.
+        IndexBroken: a file is missing or damaged.
     """
     if (directory / FILE).exists():
         return PieceNeighbourIndex.load(directory, cells)

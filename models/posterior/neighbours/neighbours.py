@@ -10,26 +10,19 @@ from models.citymap.hints import HINT_REACH_M
 from models.citymap.points import Ints
 from models.citymap.types import Floats
 
-STEP_M: Final = HINT_REACH_M / 127  # of the ways
+STEP_M: Final = HINT_REACH_M / 127  # of offsets
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Neighbours:
-    """The neighbours of M nodes, ordered by node, then whole objects first, then by distance.
+    """The R neighbours of M nodes, ordered by node, then whole objects first, then by distance."""
 
-    Attributes:
-        node: [R] int64 which of the nodes.
-        part: [R] int64, which of the surroundings' things.
-        way: [R, 2] int8, node minus the closest point (east, north), in steps of STEP_M.
-        whole: [R] bool, False for a thing of which less than Clouds.thing_share is in the cube around the node.
-    """
-
-    node: Ints
-    part: Ints
-    way: npt.NDArray[np.int8]
-    whole: npt.NDArray[np.bool_]
+    node: Ints  # [R] int64
+    part: Ints  # [R] int64, index of the object
+    offset: npt.NDArray[np.int8]  # [R, 2] node minus the object's closest point (east, north), in steps of STEP_M
+    whole: npt.NDArray[np.bool_]  # [R] False if the cube around the node has too little of an object for a cell
 
     @property
-    def way_m(self) -> Floats:
-        """[R, 2] the way in metres."""
-        return self.way.astype(np.float64) * STEP_M
+    def offset_m(self) -> Floats:
+        """The offset [R, 2] in metres."""
+        return self.offset.astype(np.float64) * STEP_M

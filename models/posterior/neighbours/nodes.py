@@ -13,8 +13,8 @@ from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.compiled import compiled
 
-SPACING_M: Final = 1.5
-COLUMNS: Final = 32  # of the grid per slice
+SPACING_M: Final = 1.5  # of the grid
+COLUMNS_PER_SLICE: Final = 32
 
 
 def grid(cells: CellTable) -> tuple[Floats, Ints]:
@@ -34,8 +34,8 @@ def slices(cells: CellTable) -> Iterator[tuple[Ints, Ints]]:
         low = np.floor((centers.min(axis=0) - BEST_CELL_REACH_M) / SPACING_M).astype(int)
         high = np.ceil((centers.max(axis=0) + BEST_CELL_REACH_M) / SPACING_M).astype(int) + 1
         tree = cKDTree(centers)
-        for first in range(low[0], high[0], COLUMNS):
-            columns = np.arange(first, min(first + COLUMNS, high[0]), dtype=np.int32)
+        for first in range(low[0], high[0], COLUMNS_PER_SLICE):
+            columns = np.arange(first, min(first + COLUMNS_PER_SLICE, high[0]), dtype=np.int32)
             steps = np.stack(np.meshgrid(columns, np.arange(low[1], high[1], dtype=np.int32), indexing="ij"), axis=-1)
             steps = steps.reshape(-1, 2)
             distance, nearest = tree.query(steps * SPACING_M, distance_upper_bound=BEST_CELL_REACH_M)
@@ -44,12 +44,12 @@ def slices(cells: CellTable) -> Iterator[tuple[Ints, Ints]]:
 
 
 @compiled
-def put_in_order(owner: Ints, rows: npt.NDArray[Any], place: Ints, ordered: npt.NDArray[Any]) -> None:
-    """Scatter rows [m, 2] to the next free place of their owners [m]; advance the places [N]."""
+def put_in_order(owner: Ints, rows: npt.NDArray[Any], free: Ints, ordered: npt.NDArray[Any]) -> None:
+    """Scatter rows [m, 2] to the next free places [N] of their owners [m]; advance these."""
     for n in range(len(owner)):
-        at = place[owner[n]]
-        ordered[at, 0], ordered[at, 1] = rows[n, 0], rows[n, 1]
-        place[owner[n]] = at + 1
+        place = free[owner[n]]
+        ordered[place, 0], ordered[place, 1] = rows[n, 0], rows[n, 1]
+        free[owner[n]] = place + 1
 
 
 @compiled
@@ -58,12 +58,12 @@ def owner_of(cell_starts: Ints, nodes: Ints) -> Ints:
 
     Fast if nodes are grouped by cell.
     """
-    found, cell = np.empty(len(nodes), np.int64), 0
+    owner, cell = np.empty(len(nodes), np.int64), 0
     for n in range(len(nodes)):
         if not cell_starts[cell] <= nodes[n] < cell_starts[cell + 1]:
             cell = np.searchsorted(cell_starts, nodes[n], side="right") - 1
-        found[n] = cell
-    return found
+        owner[n] = cell
+    return owner
 
 
 @compiled
@@ -74,29 +74,29 @@ def central_nodes(
 
     Args:
         cell_starts: [N + 1] cell n owns the nodes cell_starts[n] to cell_starts[n + 1].
-        origins: [N, 2] what a cell's nodes are counted from, in steps.
+        origins: [N, 2] origin of a cell's nodes, in steps.
         nodes: [M, 2] in steps.
-        step_m: how long one is.
+        step_m: length of a step.
         centers_m: [N, 2] of the cells.
     """
-    found, count = np.empty(len(centers_m), np.int64), 0
+    central, count = np.empty(len(centers_m), np.int64), 0
     for n in range(len(centers_m)):
-        least = np.inf
+        nearest_m = np.inf
         for node in range(cell_starts[n], cell_starts[n + 1]):
             x, y = (origins[n, 0] + nodes[node, 0]) * step_m, (origins[n, 1] + nodes[node, 1]) * step_m
-            apart = np.hypot(x - centers_m[n, 0], y - centers_m[n, 1])
-            if apart < least:
-                least, found[count] = apart, node
-        if least < np.inf:
+            distance_m = np.hypot(x - centers_m[n, 0], y - centers_m[n, 1])
+            if distance_m < nearest_m:
+                nearest_m, central[count] = distance_m, node
+        if nearest_m < np.inf:
             count += 1
-    return found[:count].copy()
+    return central[:count].copy()
 
 
 @compiled
-def is_coarse(positions_m: Floats, times: Ints) -> npt.NDArray[np.bool_]:
+def is_coarse(positions_m: Floats, factor: Ints) -> npt.NDArray[np.bool_]:
     """Return whether nodes [M, 2] belong to the grid that is coarser by a factor [M]."""
     coarse = np.empty(len(positions_m), np.bool_)
     for n in range(len(positions_m)):
         x, y = np.rint(positions_m[n, 0] / SPACING_M), np.rint(positions_m[n, 1] / SPACING_M)
-        coarse[n] = x % times[n] == 0 and y % times[n] == 0
+        coarse[n] = x % factor[n] == 0 and y % factor[n] == 0
     return coarse

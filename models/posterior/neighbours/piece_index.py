@@ -28,47 +28,38 @@ from models.spool import in_turn, on_disk, spooled
 from models.strings import compact
 
 FILE: Final = "pieces.safetensors"
-THINGS: Final = ("instance", "rgb", "parts", "is_flat")
+OBJECT_COLUMNS: Final = ("instance", "rgb", "parts", "is_flat")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PieceNeighbourIndex:
-    """A `NeighbourIndex` of a map of pieces.
+    """A `NeighbourIndex` of a map of pieces."""
 
-    Attributes:
-        things: the map's instances.
-        cell_starts: see NeighbourIndex.
-        offset: [M, 2] int8 each node in steps of the grid, from the one next to its cell's centre.
-        pieces: of the map.
-        rules: of its cells.
-        center_m: [N, 2] of these.
-    """
-
-    things: MapObjects
+    objects: MapObjects  # the map's instances
     cell_starts: Ints
-    offset: npt.NDArray[np.int8]
+    offset: npt.NDArray[np.int8]  # [M, 2] each node in steps of the grid, from the node next to its cell's centre
     pieces: PieceTable
     rules: CutRules
-    center_m: Floats
+    center_m: Floats  # [N, 2] of the cells
 
     @classmethod
     def build(cls, bodies: PieceGeometry, cells: CellTable) -> "PieceNeighbourIndex":
         """Build the index of a gallery."""
-        things, center_m = MapObjects.of_instances(bodies, cells.parts), cells.center_m[:, :2]
+        objects, center_m = MapObjects.from_instances(bodies, cells.parts), cells.center_m[:, :2]
         middle = _step_of(center_m)
         count = np.zeros(len(cells), np.int64)
 
-        def counted() -> Iterator[dict[str, Ints]]:
+        def count_nodes() -> Iterator[dict[str, Ints]]:
             for steps, owner in slices(cells):
                 np.add(count, np.bincount(owner, minlength=len(cells)), out=count)
                 yield {"owner": owner, "offset": (steps - middle[owner]).astype(np.int8)}
 
-        found = spooled(counted())
+        spool = spooled(count_nodes())
         starts = np.concatenate([[0], np.cumsum(count)])
-        offset, place = on_disk(2 * int(starts[-1]), np.int8).reshape(-1, 2), starts[:-1].copy()
-        for some in in_turn(found):
-            put_in_order(some["owner"], some["offset"], place, offset)
-        return cls(things, compact(starts), offset, bodies.pieces, bodies.rules, center_m)
+        offset, free = on_disk(2 * int(starts[-1]), np.int8).reshape(-1, 2), starts[:-1].copy()
+        for columns in in_turn(spool):
+            put_in_order(columns["owner"], columns["offset"], free, offset)
+        return cls(objects, compact(starts), offset, bodies.pieces, bodies.rules, center_m)
 
     @property
     def cuts(self) -> bool:
@@ -86,25 +77,25 @@ class PieceNeighbourIndex:
 
     def _positions_m(self, nodes: Ints, cell: Ints) -> Floats:
         """Return the positions [n, 2] of nodes owned by cells [n]."""
-        found: Floats = _positions_m(self.center_m, self.offset, nodes, cell)
-        return found
+        positions_m: Floats = _positions_m(self.center_m, self.offset, nodes, cell)
+        return positions_m
 
     def middles(self, centers_m: Floats) -> Ints:
         """As in `NeighbourIndex`."""
-        found: Ints = central_nodes(self.cell_starts, _step_of(self.center_m), self.offset, SPACING_M, centers_m)
-        return found
+        middles: Ints = central_nodes(self.cell_starts, _step_of(self.center_m), self.offset, SPACING_M, centers_m)
+        return middles
 
     def owner(self, nodes: Ints) -> Ints:
         """As in `NeighbourIndex`."""
-        found: Ints = owner_of(self.cell_starts, nodes)
-        return found
+        owner: Ints = owner_of(self.cell_starts, nodes)
+        return owner
 
     def around(self, nodes: Ints) -> Neighbours:
         """As in `NeighbourIndex`."""
         cell = self.owner(nodes)
         first = np.flatnonzero(np.diff(cell, prepend=-1))
         starts = np.append(first, len(nodes))
-        node, part, way = closest_instances(
+        node, part, steps = closest_instances(
             self.pieces,
             self.rules,
             self.center_m[cell[first]],
@@ -113,20 +104,20 @@ class PieceNeighbourIndex:
             HINT_REACH_M,
             STEP_M,
         )
-        known = self.things.parts[part] > 0
-        if not known.all():  # of a part of a map
-            node, part, way = node[known], part[known], way[known]
-        return Neighbours(node, part, way, np.ones(len(node), np.bool_))
+        known = self.objects.parts[part] > 0
+        if not known.all():  # after `take`
+            node, part, steps = node[known], part[known], steps[known]
+        return Neighbours(node, part, steps, np.ones(len(node), np.bool_))
 
     def cut(self, centers_m: Floats) -> PartTable:
         """Return the parts in the cubes around centres [N, 3]."""
-        return cut_pieces(self.pieces, self.things.rgb, centers_m, self.rules)
+        return cut_pieces(self.pieces, self.objects.rgb, centers_m, self.rules)
 
     def take(self, cells: Ints, parts: Ints) -> "PieceNeighbourIndex":
         """As in `NeighbourIndex`."""
         return replace(
             self,
-            things=replace(self.things, parts=parts),
+            objects=replace(self.objects, parts=parts),
             cell_starts=np.concatenate([[0], np.cumsum(np.diff(self.cell_starts)[cells])]),
             offset=self.offset[ranges(self.cell_starts[cells], self.cell_starts[cells + 1])],
             center_m=self.center_m[cells],
@@ -141,12 +132,12 @@ class PieceNeighbourIndex:
         """Load a saved index.
 
         Raises:
-            IndexBroken: the file holds something else.
+            IndexBroken: the file is missing or damaged.
         """
         try:
             columns = map_arrays(directory / FILE)[0]
-            instance, rgb, parts, is_flat = (columns[f"things.{name}"] for name in THINGS)
-            things = MapObjects(instance, rgb, parts, is_flat)
+            instance, rgb, parts, is_flat = (columns[f"things.{name}"] for name in OBJECT_COLUMNS)
+            objects = MapObjects(instance, rgb, parts, is_flat)
             pieces = PieceTable.from_columns({name[7:]: c for name, c in columns.items() if name.startswith("pieces.")})
             rules = CutRules(*columns["rules"].tolist())
             starts, offset = columns["cell_starts"], columns["offset"]
@@ -154,10 +145,10 @@ class PieceNeighbourIndex:
                 raise ValueError(f"{len(starts)} starts and {len(offset)} nodes of {len(cells)} cells")
         except (OSError, SafetensorError, KeyError, TypeError, ValueError, IndexError) as error:
             raise IndexBroken(f"{directory / FILE} cannot be read; rebuild it with 'hereabouts index'") from error
-        return cls(things, starts, offset, pieces, rules, cells.center_m[:, :2])
+        return cls(objects, starts, offset, pieces, rules, cells.center_m[:, :2])
 
     def _columns(self) -> dict[str, np.ndarray]:
-        columns = {f"things.{name}": getattr(self.things, name) for name in THINGS}
+        columns = {f"things.{name}": getattr(self.objects, name) for name in OBJECT_COLUMNS}
         columns |= {f"pieces.{name}": column for name, column in self.pieces.columns().items()}
         columns |= {
             "cell_starts": self.cell_starts,
@@ -169,11 +160,11 @@ class PieceNeighbourIndex:
 
 @compiled
 def _positions_m(center_m: Floats, offset: Ints, nodes: Ints, cell: Ints) -> Floats:
-    found = np.empty((len(nodes), 2))
+    positions_m = np.empty((len(nodes), 2))
     for n in range(len(nodes)):
         for axis in range(2):
-            found[n, axis] = (np.rint(center_m[cell[n], axis] / SPACING_M) + offset[nodes[n], axis]) * SPACING_M
-    return found
+            positions_m[n, axis] = (np.rint(center_m[cell[n], axis] / SPACING_M) + offset[nodes[n], axis]) * SPACING_M
+    return positions_m
 
 
 def _step_of(center_m: Floats) -> Ints:

@@ -1,8 +1,8 @@
 """Split an instance into its connected pieces around a position.
 
-Stuff goes on beyond what a person sees: all sidewalk of a town may be one instance, joined around the next block. Who
-stands between two sidewalks sees two. Nodes are taken a tile at a time; what of an instance is in the cube around a
-tile falls into pieces that do not touch there, much as DBSCAN has them when a cell is cut (docs/formats.md, rule 4).
+All sidewalks of a town may be one instance, but a person between two of them sees two. For each tile of nodes, the
+points of an instance in the cube around the tile are split into pieces that do not touch there, similar to the DBSCAN
+that cuts cells (docs/formats.md, rule 4).
 """
 
 from collections.abc import Iterator
@@ -20,27 +20,21 @@ from models.citymap.cells import CellTable
 from models.citymap.points import Ints, ranges
 from models.citymap.types import Floats
 
-TILE_M = 5.0  # nodes that share a cube; a cube of each node's own costs ten times as much and finds the same
-PIXEL_M = 0.75  # points in pixels that touch hang together
-BLOCK_M = 120.0  # of an instance, as much is drawn as pixels at once
-TOUCHING = np.zeros((3, 3, 3), dtype=np.int64)  # in a window, not from one to the next
-TOUCHING[1] = 1
-Piece = tuple[Ints, Floats, Ints]  # node, way, part
+TILE_M = 5.0  # nodes that share a cube; a cube per node takes ten times as long, with the same result
+PIXEL_M = 0.75  # points in adjoining pixels touch
+BLOCK_M = 120.0  # bounds the size of an image of pixels
+ADJOINING = np.zeros((3, 3, 3), dtype=np.int64)  # pixels of the same window, not of the next
+ADJOINING[1] = 1
+Piece = tuple[Ints, Floats, Ints]  # node, offset, part
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Tiles:
-    """Groups of nodes: those of a cell in a square of TILE_M.
+    """T groups of nodes: those of a cell in a square of TILE_M."""
 
-    Attributes:
-        of_node: [M] tile of each node.
-        cell: [T] owner of its nodes.
-        center_m: [T, 2] mean of its nodes.
-    """
-
-    of_node: Ints
-    cell: Ints
-    center_m: Floats
+    of_node: Ints  # [M] tile of each node
+    cell: Ints  # [T] owner of its nodes
+    center_m: Floats  # [T, 2] mean of its nodes
 
     @classmethod
     def build(cls, nodes_m: Floats, owner: Ints, cells: CellTable) -> "Tiles":
@@ -56,17 +50,11 @@ class Tiles:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pieces:
-    """The pieces of an instance around nodes, R rows.
+    """R pairs of a node and a piece of an instance around it."""
 
-    Attributes:
-        node: [R] row of the nodes that were given.
-        way: [R, 2] node minus the piece's closest point, metres.
-        part: [R] row of the cells' parts that shows the piece.
-    """
-
-    node: Ints
-    way: Floats
-    part: Ints
+    node: Ints  # [R]
+    offset_m: Floats  # [R, 2] node minus the piece's closest point
+    part: Ints  # [R] part of a cell that shows the piece
 
 
 class PieceFinder:
@@ -76,11 +64,11 @@ class PieceFinder:
         xyz: [P, 3] its points, metres.
         parts: [S] rows of the cells' parts that show it, ascending, at least one.
         cells: the gallery.
-        least: a piece of fewer points is none.
+        min_points: smaller pieces are ignored.
     """
 
-    def __init__(self, xyz: Floats, parts: Ints, cells: CellTable, least: float) -> None:
-        self._least, self._parts, self._cells = least, parts, cells
+    def __init__(self, xyz: Floats, parts: Ints, cells: CellTable, min_points: float) -> None:
+        self._min_points, self._parts, self._cells = min_points, parts, cells
         self._width = int(np.ceil(cells.size_m / PIXEL_M))
         self._low = xyz[:, :2].min(axis=0)
         pixel = self._pixel(xyz[:, :2])
@@ -99,26 +87,26 @@ class PieceFinder:
     def _nearest(self) -> cKDTree:
         return cKDTree(self._cells.parts.closest_m[self._parts])
 
-    def around(self, at: Floats, tile: Ints, tiles: Tiles) -> Pieces:
+    def around(self, nodes_m: Floats, tile: Ints, tiles: Tiles) -> Pieces:
         """Return the pieces around nodes that have several; other nodes have no row.
 
         Args:
-            at: [M, 3] nodes.
-            tile: [M] of each.
-            tiles: all.
+            nodes_m: [M, 3].
+            tile: [M] of each node.
+            tiles: of all nodes.
         """
         order = np.argsort(tile, kind="stable")
         numbers, first = np.unique(tile[order], return_index=True)
         nodes = np.split(order, first[1:])
         corner = self._pixel(tiles.center_m[numbers] - self._cells.size_m / 2)
-        found: list[Piece] = [(np.zeros(0, np.int64), np.zeros((0, 2)), np.zeros(0, np.int64))]
+        pieces: list[Piece] = [(np.zeros(0, np.int64), np.zeros((0, 2)), np.zeros(0, np.int64))]
         blocks = np.unique(np.floor(tiles.center_m[numbers] / BLOCK_M), axis=0, return_inverse=True)[1]
         for block in range(blocks.max(initial=-1) + 1):
             of_block = np.flatnonzero(blocks == block)
             for n, pixels, piece in self._windows(corner[of_block]):
                 rows, cell = nodes[of_block[n]], int(tiles.cell[numbers[of_block[n]]])
-                found += self._measured(at[rows], rows, pixels, piece, cell)
-        return Pieces(*(np.concatenate(column) for column in zip(*found, strict=True)))
+                pieces += self._measure(nodes_m[rows], rows, pixels, piece, cell)
+        return Pieces(*(np.concatenate(column) for column in zip(*pieces, strict=True)))
 
     def _windows(self, corner: Ints) -> Iterator[tuple[int, Ints, Ints]]:
         """Yield (number, rows [K] of pixels, their pieces [K]) of the windows at corners [N, 2] with several pieces."""
@@ -127,32 +115,34 @@ class PieceFinder:
         image = np.full(high - low, -1, dtype=np.int32)
         image[tuple((self._pixels[rows] - low).T)] = rows
         windows = sliding_window_view(image, (self._width, self._width))[tuple((corner - low).T)]
-        labelled, _ = ndimage.label(windows >= 0, TOUCHING)
+        labelled, _ = ndimage.label(windows >= 0, ADJOINING)
         # labels ascend from window to window
         last = np.maximum.accumulate(labelled.reshape(len(corner), -1).max(axis=1))
         for n in np.flatnonzero(np.diff(last, prepend=0) > 1):
             inside = windows[n] >= 0
             yield int(n), windows[n][inside], labelled[n][inside]
 
-    def _measured(self, at: Floats, rows: Ints, pixels: Ints, piece: Ints, cell: int) -> Iterator[Piece]:
-        """Yield (node, way, part) of each piece of a window."""
+    def _measure(self, nodes_m: Floats, rows: Ints, pixels: Ints, piece: Ints, cell: int) -> Iterator[Piece]:
+        """Yield (node, offset, part) of each piece of a window."""
         order = np.argsort(piece, kind="stable")
         pixels, piece = pixels[order], piece[order]
-        middle = at[0]
+        middle = nodes_m[0]
         points = self._xyz[ranges(self._starts[pixels], self._starts[pixels + 1])] - middle
         last = np.append(np.flatnonzero(np.diff(piece)), len(piece) - 1)
         ends = np.cumsum(self._starts[pixels + 1] - self._starts[pixels])[last]
         shown = self._shown(cell)
-        seen = np.concatenate([at, self._cells.parts.closest_m[shown]]) - middle
-        square = (points**2).sum(axis=1) - 2 * seen @ points.T  # less what is the same for all points
-        shows = dict(zip(np.searchsorted(ends, square[len(at) :].argmin(axis=1), side="right"), shown, strict=True))
+        targets = np.concatenate([nodes_m, self._cells.parts.closest_m[shown]]) - middle
+        square = (points**2).sum(axis=1) - 2 * targets @ points.T  # up to a constant of each target
+        shows = dict(
+            zip(np.searchsorted(ends, square[len(nodes_m) :].argmin(axis=1), side="right"), shown, strict=True)
+        )
         for number, (begin, end) in enumerate(pairwise([0, *ends.tolist()])):
-            if end - begin < self._least:
+            if end - begin < self._min_points:
                 continue
-            closest = points[begin + square[: len(at), begin:end].argmin(axis=1)] + middle
-            # another cell's, where this one has cut the piece off
+            closest = points[begin + square[: len(nodes_m), begin:end].argmin(axis=1)] + middle
+            # a part of another cell if this one has cut the piece off
             part = shows[number] if number in shows else self._parts[self._nearest.query(closest[0])[1]]
-            yield rows, at[:, :2] - closest[:, :2], np.full(len(rows), part)
+            yield rows, nodes_m[:, :2] - closest[:, :2], np.full(len(rows), part)
 
     def _shown(self, cell: int) -> Ints:
         """Return the parts of a cell, the largest last."""

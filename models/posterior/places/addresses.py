@@ -21,41 +21,34 @@ _NONE: Final = np.zeros(0, np.int64)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Addresses:
-    """An index of addresses; each has a column of a table.
+    """An index of addresses; each has a column of a table."""
 
-    Attributes:
-        shown: [K] "350 West 42nd Street".
-        objects: [E] the object of each address of one.
-        column: [E] its column; objects of one address share it.
-        streets: of all addresses.
-        by_street: from a column of `streets`, NUMBER_SEPARATOR and a number to the column.
-        by_number: from a number to columns.
-    """
-
-    shown: StringArray
-    objects: Ints
-    column: Ints
-    streets: NameIndex
-    by_street: Postings
-    by_number: Postings
+    shown: StringArray  # [K] "350 West 42nd Street"
+    objects: Ints  # [E] an object with an address
+    column: Ints  # [E] its column; objects with the same address share it
+    streets: NameIndex  # of all addresses
+    by_street: Postings  # from a column of `streets`, NUMBER_SEPARATOR and a number to the column
+    by_number: Postings  # from a number to columns
 
     @classmethod
     def build(cls, words: Sequence[GazetteerObject]) -> "Addresses":
         """Build the index of objects; an object has one address per house number, and none without a street."""
         rows = [
-            (n, number.replace(" ", ""), some.street)
-            for n, some in enumerate(words)
-            if some.street
-            for number in some.numbers
+            (n, number.replace(" ", ""), item.street)
+            for n, item in enumerate(words)
+            if item.street
+            for number in item.numbers
         ]
         streets = NameIndex.build([(street,) for _, _, street in rows], are_streets=True)
         columns, shown = dict[tuple[int, str], int](), list[str]()
         column = []
-        for (_, number, street), of in zip(rows, streets.column.tolist(), strict=True):
-            column.append(columns.setdefault((of, number), len(columns)))
+        for (_, number, street), street_column in zip(rows, streets.column.tolist(), strict=True):
+            column.append(columns.setdefault((street_column, number), len(columns)))
             if column[-1] == len(shown):
                 shown.append(f"{number} {street}")
-        by_street = Postings.from_pairs((f"{of}{NUMBER_SEPARATOR}{number}", n) for (of, number), n in columns.items())
+        by_street = Postings.from_pairs(
+            (f"{street}{NUMBER_SEPARATOR}{number}", n) for (street, number), n in columns.items()
+        )
         by_number = Postings.from_pairs((number, n) for (_, number), n in columns.items())
         objects = np.array([n for n, _, _ in rows], np.int32)
         return cls(StringArray.from_strings(shown), objects, np.array(column, np.int32), streets, by_street, by_number)
@@ -65,9 +58,9 @@ class Addresses:
 
     def columns(self, name: str) -> dict[str, Column]:
         """Return the arrays that `from_columns` reads."""
-        found = {f"{name}.objects": self.objects, f"{name}.column": self.column} | self.shown.columns(f"{name}.shown")
-        found |= self.by_street.columns(f"{name}.by_street") | self.by_number.columns(f"{name}.by_number")
-        return found | self.streets.columns(f"{name}.streets")
+        columns = {f"{name}.objects": self.objects, f"{name}.column": self.column} | self.shown.columns(f"{name}.shown")
+        columns |= self.by_street.columns(f"{name}.by_street") | self.by_number.columns(f"{name}.by_number")
+        return columns | self.streets.columns(f"{name}.streets")
 
     @classmethod
     def from_columns(cls, columns: Mapping[str, Column], name: str) -> "Addresses":
@@ -77,12 +70,12 @@ class Addresses:
         objects, column = columns[f"{name}.objects"], columns[f"{name}.column"]
         return cls(StringArray.from_columns(columns, f"{name}.shown"), objects, column, streets, by_street, by_number)
 
-    def find(self, said: str) -> Ints:
+    def find(self, address: str) -> Ints:
         """Return the columns [k] that an address may mean; a number alone is looked up in all streets.
 
         A number that a street lacks means its nearest numbers on the same side; none past the end of the street.
         """
-        words, found = plain_words(said), list[int]()
+        words, columns = plain_words(address), list[int]()
         for n, number in enumerate(words):
             if not number[0].isdecimal() or ORDINAL.fullmatch(number):
                 continue
@@ -94,21 +87,23 @@ class Addresses:
             if not before and not behind:
                 return self.by_number.find(number)
             for street in streets or self._street(before):
-                there = {known: int(of[0]) for known, of in self.by_street.with_prefix(f"{street}{NUMBER_SEPARATOR}")}
-                found.extend([there[number]] if number in there else _beside(number, there))
-            if found:
-                return np.array(found)
+                numbers = {
+                    known: int(rows[0]) for known, rows in self.by_street.with_prefix(f"{street}{NUMBER_SEPARATOR}")
+                }
+                columns.extend([numbers[number]] if number in numbers else _nearest_numbers(number, numbers))
+            if columns:
+                return np.array(columns)
         return _NONE
 
-    def _street(self, said: tuple[str, ...]) -> list[int]:
+    def _street(self, words: tuple[str, ...]) -> list[int]:
         """Return the streets of the longest prefix that names any; a town or a flat may follow."""
-        for end in range(len(said), 0, -1):
-            if len(streets := self.streets.find(" ".join(said[:end]))):
+        for end in range(len(words), 0, -1):
+            if len(streets := self.streets.find(" ".join(words[:end]))):
                 return [int(street) for street in streets]
         return []
 
 
-def _beside(number: str, numbers: Mapping[str, int]) -> list[int]:
+def _nearest_numbers(number: str, numbers: Mapping[str, int]) -> list[int]:
     """Return the columns of the nearest numbers on the same side; none past the end."""
     wanted = _digits(number)
     side = [(_digits(known), column) for known, column in numbers.items()]
@@ -120,5 +115,5 @@ def _beside(number: str, numbers: Mapping[str, int]) -> list[int]:
 
 def _digits(number: str) -> int:
     """Return the leading digits of a house number; -1 without any."""
-    found = _NUMBER.match(number)
-    return int(found.group()) if found else -1
+    digits = _NUMBER.match(number)
+    return int(digits.group()) if digits else -1

@@ -11,37 +11,23 @@ from models.language.mentions.mentions import Mention
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Places:
-    """The mentions of a text, prepared for evaluation at positions.
+class PlacedMentions:
+    """The mentions of a text, prepared for evaluation at positions."""
 
-    Attributes:
-        mentions: those with objects near the map.
-        common: [K] mean of each mention's kernel over the map, by which likelihoods are divided.
-        listener_m: [2] position of the listener; None if unknown.
-        listener_wind: degrees from the listener to the speaker; None if not stated.
-        is_meeting: whether the text describes a meeting point, not the speaker's position.
-    """
-
-    mentions: tuple[Mention, ...]
-    common: Tensor
-    listener_m: Floats | None = None
-    listener_wind: float | None = None
-    is_meeting: bool = False
+    mentions: tuple[Mention, ...]  # those with objects near the map
+    kernel_means: Tensor  # mean of each mention's kernel over the map, by which likelihoods are divided
+    listener_m: Floats | None = None  # [2] position of the listener
+    listener_wind: float | None = None  # stated bearing from the listener to the speaker, degrees
+    is_meeting: bool = False  # whether the text describes a meeting point, not the speaker's position
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MentionExplanation:
-    """The explanation of a mention at a position.
+    """The explanation of a mention at a position."""
 
-    Attributes:
-        probability: that an object explains the mention.
-        item: index of the object, then of the line; -1 for none.
-        way_m: [2] from the position to it.
-    """
-
-    probability: float
-    item: int
-    way_m: Floats
+    probability: float  # that an object explains the mention
+    item: int  # index of the object, then of the line; -1 for none
+    offset_m: Floats  # [2] from the position to it
 
 
 UNEXPLAINED: Final = MentionExplanation(0.0, -1, np.zeros(2))

@@ -17,22 +17,22 @@ SCALES: Final = {
 TYPES: Final = tuple(SCALES)
 # Initial probabilities that a mention is no evidence: misread, wrong or not on the map.
 FLOORS: Final = {"exact": 0.10, "part": 0.25, "kind": 0.20, "street": 0.06, "corner": 0.08}
-SURE: Final = tuple(FLOORS)
+FLOOR_NAMES: Final = tuple(FLOORS)
 HEADINGS: Final = 16
-ACROSS_M: Final = 24.0
-POWER: Final = 1.5
-ASIDE: Final = 60.0  # degrees from ahead or behind beyond which a thing is at the side
+INITIAL_ACROSS_M: Final = 24.0  # width of a street
+KERNEL_POWER: Final = 1.5
+MAX_AHEAD_DEG: Final = 60.0  # from ahead or behind; beyond, an object is at the side
 
 
 class PlaceKernels(nn.Module):
-    """The weights: scales, tails and floors, and the precision of directions and distances."""
+    """The weights: scales, tails and floors, precision of directions and distances. Parameters are logs or logits."""
 
     def __init__(self) -> None:
         super().__init__()
         self.scale = nn.Parameter(torch.tensor(list(SCALES.values())).log())
         self.tail = nn.Parameter(torch.full((len(SCALES),), -1.4))  # logit of the share of the heavy tail
         self.floor = nn.Parameter(torch.tensor(list(FLOORS.values())).logit())
-        self.across_m = nn.Parameter(torch.tensor(ACROSS_M).log())
+        self.across_m = nn.Parameter(torch.tensor(INITIAL_ACROSS_M).log())
         self.ego = nn.Parameter(torch.tensor(2.0).log())  # log concentration of left, right, ahead, behind
         self.wind = nn.Parameter(torch.tensor(2.0).log())
         self.listener = nn.Parameter(torch.tensor(2.5).log())  # of winds seen from the listener
@@ -49,13 +49,13 @@ class PlaceKernels(nn.Module):
         if TYPES[kind] == "across":
             ring = torch.exp(-0.5 * ((metres - self.across_m.exp()) / scale) ** 2)
         else:
-            ring = torch.exp(-((metres / scale).clamp(min=1e-4) ** POWER))
+            ring = torch.exp(-((metres / scale).clamp(min=1e-4) ** KERNEL_POWER))
         return (1 - tail) * ring + tail * torch.exp(-metres / (4 * scale))
 
-    def said(self, metres: Tensor, said_m: float, *, is_loose: bool) -> Tensor:
+    def stated_distance(self, metres: Tensor, stated_m: float, *, is_loose: bool) -> Tensor:
         """Return the kernel of a stated distance."""
         width = self.measured[int(is_loose)].exp()
-        ratio = torch.log((metres + 4.0) / (said_m + 4.0))
+        ratio = torch.log((metres + 4.0) / (stated_m + 4.0))
         return torch.exp(-0.5 * (ratio / width) ** 2)
 
     def toward(self, concentration: Tensor, cosine: Tensor, metres: Tensor) -> Tensor:
@@ -87,11 +87,11 @@ def kernel_of(mention: Mention, angle: float | None) -> int:
         return TYPES.index(mention.form)
     if relation == "seen" and angle is not None:
         off = abs(angle)
-        return TYPES.index("ahead" if off < ASIDE else "behind" if off > 180.0 - ASIDE else "side")
+        return TYPES.index("ahead" if off < MAX_AHEAD_DEG else "behind" if off > 180.0 - MAX_AHEAD_DEG else "side")
     return TYPES.index(relation)
 
 
-def sure_of(mention: Mention) -> str:
+def floor_name(mention: Mention) -> str:
     """Return the row name of FLOORS for a mention."""
     if mention.form == "street":
         return "street"

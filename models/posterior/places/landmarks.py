@@ -25,28 +25,21 @@ from models.spool import Spool, starts_of
 from models.strings import Column, merge_columns
 
 FILE: Final = "landmarks.safetensors"
-FAINT: Final = 0.01  # what is said more seldom is not kept
-AT_ONCE: Final = 16_384  # cells: what is known of them before that takes ten times the room
+MIN_PROBABILITY: Final = 0.01  # smaller entries are not stored
+CELLS_PER_BLOCK: Final = 16_384  # bounds the memory of a build
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Table:
-    """Chance [N, K] of names in cells; rows add up to 1 about, or to less where there may be none to say.
+class NameProbabilityTable:
+    """The probabilities [N, K] of names in cells; rows add up to about 1, or less where people may have no name."""
 
-    Attributes:
-        names: K.
-        starts: [N + 1] int32, cell n has the entries starts[n] to starts[n + 1].
-        name: [Z] uint16, int32 if there are too many for that.
-        chance: [Z] float16.
-    """
-
-    names: int
-    starts: Ints
-    name: Ints
-    chance: npt.NDArray[np.float16]
+    names: int  # K
+    starts: Ints  # [N + 1] int32, cell n has the entries starts[n] to starts[n + 1]
+    name: Ints  # [Z] uint16 or int32
+    chance: npt.NDArray[np.float16]  # [Z]
 
     @classmethod
-    def of_entries(cls, names: int, entries: Mapping[str, Column]) -> "Table":
+    def from_entries(cls, names: int, entries: Mapping[str, Column]) -> "NameProbabilityTable":
         """Build a table of a number of names from the entries of its cells in order."""
         return cls(names, starts_of(entries["sizes"]), entries["name"], entries["chance"])
 
@@ -57,21 +50,21 @@ class Table:
         content = self.chance[entries].astype(np.float64), self.name[entries].astype(np.int64)
         return csr_array((*content, np.concatenate([[0], np.cumsum(end - begin)])), shape=(len(cells), self.names))
 
-    def of(self, names: Ints) -> Floats:
+    def probability(self, names: Ints) -> Floats:
         """Return the probability [N] of any of the names."""
-        is_one = np.zeros(self.names, np.bool_)
-        is_one[names] = True
-        chance: Floats = _sums(self.starts, self.name, self.chance.view(np.uint16), HALVES, is_one)
-        return chance
+        is_chosen = np.zeros(self.names, np.bool_)
+        is_chosen[names] = True
+        total: Floats = _sums(self.starts, self.name, self.chance.view(np.uint16), HALVES, is_chosen)
+        return total
 
     def columns(self, name: str) -> dict[str, Column]:
-        """Arrays from which `from_columns` makes it."""
+        """Return the arrays that `from_columns` reads."""
         arrays = {kind: getattr(self, kind) for kind in _ENTRIES} | {"names": np.array([self.names])}
         return {f"{name}.{kind}": array for kind, array in arrays.items()}
 
     @classmethod
-    def from_columns(cls, columns: Mapping[str, Column], name: str) -> "Table":
-        """What `columns` gave of a name."""
+    def from_columns(cls, columns: Mapping[str, Column], name: str) -> "NameProbabilityTable":
+        """Restore a table from the arrays of `columns`."""
         starts, names, chance = (columns[f"{name}.{kind}"] for kind in _ENTRIES)
         return cls(int(columns[f"{name}.names"][0]), starts, names, chance)
 
@@ -80,87 +73,72 @@ _ENTRIES: Final = ("starts", "name", "chance")
 
 
 def _entries_of(rows: csr_array) -> dict[str, Column]:
-    """Return the number of entries of each row of a table [N, K] and the entries, without those below FAINT."""
+    """Return the number of entries of each row of a table [N, K], and the entries worth storing."""
     cell = np.repeat(np.arange(rows.shape[0]), np.diff(rows.indptr))
-    kept = rows.data >= FAINT
+    stored = rows.data >= MIN_PROBABILITY
     return {
-        "sizes": np.bincount(cell[kept], minlength=rows.shape[0]),
-        "name": rows.indices[kept].astype(np.uint16 if rows.shape[1] <= 1 << 16 else np.int32),
-        "chance": rows.data[kept].astype(np.float16),
+        "sizes": np.bincount(cell[stored], minlength=rows.shape[0]),
+        "name": rows.indices[stored].astype(np.uint16 if rows.shape[1] <= 1 << 16 else np.int32),
+        "chance": rows.data[stored].astype(np.float16),
     }
 
 
 @compiled
-def _sums(starts: Ints, name: Ints, chance: Ints, halves: Floats, is_one: npt.NDArray[np.bool_]) -> Floats:
-    """Sum the probabilities, given as bits, of the names that are meant, for each cell [N]."""
-    found = np.zeros(len(starts) - 1)
-    for cell in range(len(found)):
+def _sums(starts: Ints, name: Ints, chance: Ints, halves: Floats, is_chosen: npt.NDArray[np.bool_]) -> Floats:
+    """Return the sum [N] of the probabilities, given as bits, of the chosen names in each cell."""
+    total = np.zeros(len(starts) - 1)
+    for cell in range(len(total)):
         for entry in range(starts[cell], starts[cell + 1]):
-            if is_one[name[entry]]:
-                found[cell] += halves[chance[entry]]
-    return found
+            if is_chosen[name[entry]]:
+                total[cell] += halves[chance[entry]]
+    return total
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Crossings:
-    """Probabilities of pairs of a street and its nearest cross street.
+    """Probabilities of D pairs of a street that a cell is on and the nearest cross street."""
 
-    Attributes:
-        pairs: chance of D pairs of streets in cells: on one, and the other is the nearest that crosses it.
-        on: [D] column of the one.
-        other: [D] column of the other.
-        streets: how many there are.
-    """
-
-    pairs: Table
-    on: Ints
-    other: Ints
-    streets: int
+    pairs: NameProbabilityTable
+    on: Ints  # [D] column of the street
+    other: Ints  # [D] column of the cross street
+    streets: int  # number of streets
 
     def rows(self, cells: Ints, on: Ints) -> csr_array:
-        """[C, S] chance of each street in some cells.
+        """Return the probability [C, S] of each cross street in cells [C].
 
         Args:
-            cells: [C].
-            on: the streets that people may have said to be on; none if they have not said. Where none of these is
-                near they were wrong, and are on any.
+            cells: rows of the gallery.
+            on: streets that people may have said to be on. Cells near none of them, or all cells without any, allow
+                every street.
         """
         row, pair, chance = find(self.pairs.rows(cells))
         is_on = np.isin(self.on[pair], on)
-        kept = is_on | (np.bincount(row, is_on, len(cells)) == 0)[row]
-        row, pair, chance = row[kept], pair[kept], shares(row[kept], chance[kept])
+        allowed = is_on | (np.bincount(row, is_on, len(cells)) == 0)[row]
+        row, pair, chance = row[allowed], pair[allowed], shares(row[allowed], chance[allowed])
         return csr_array((chance, (row, self.other[pair])), shape=(len(cells), self.streets))
 
-    def of(self, names: Ints, on: Ints) -> Floats:
-        """Return the probability [N] of any of the names in all cells."""
+    def probability(self, names: Ints, on: Ints) -> Floats:
+        """Return the probability [N] of any of the names as cross street; `on` as in `rows`."""
         is_on, is_other = np.isin(self.on, on), np.isin(self.other, names)
-        sums = [self.pairs.of(np.flatnonzero(some)) for some in (is_on & is_other, is_on, is_other)]
-        everything = self.pairs.of(np.arange(self.pairs.names))
-        part, whole = np.where(sums[1] > 0, sums[0], sums[2]), np.where(sums[1] > 0, sums[1], everything)
-        chance: Floats = part / np.maximum(whole, 1e-300)
-        return chance
+        both, any_on, any_other = (
+            self.pairs.probability(np.flatnonzero(pairs)) for pairs in (is_on & is_other, is_on, is_other)
+        )
+        everything = self.pairs.probability(np.arange(self.pairs.names))
+        part, whole = np.where(any_on > 0, both, any_other), np.where(any_on > 0, any_on, everything)
+        probability: Floats = part / np.maximum(whole, 1e-300)
+        return probability
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Landmarks:
-    """The names that people in each cell of a map may answer.
-
-    Attributes:
-        streets: columns of `on_street`.
-        names: columns of `said`.
-        addresses: columns of `numbered`.
-        on_street: of each street, that who stands in a cell says to be on it.
-        said: of each place's name, that who stands in a cell says it when asked for one.
-        numbered: of each house number, that who stands in a cell says that it is the nearest.
-        crossings: the corners near each cell of the streets that it is on.
-    """
+    """The names that people in each cell of a map may reply; each table has the columns of an index."""
 
     streets: NameIndex
     names: NameIndex
     addresses: Addresses
-    on_street: Table
-    said: Table
-    numbered: Table
+    street_table: NameProbabilityTable  # of the street that somebody is on
+    name_table: NameProbabilityTable  # of a place that somebody names when asked for one
+    address_table: NameProbabilityTable  # of the nearest house number
     crossings: Crossings
 
     @classmethod
@@ -170,7 +148,7 @@ class Landmarks:
         Args:
             gazetteer: of the map.
             centers_m: [N, 2] of the cells.
-            kinds: beginnings of the kinds of places that people know by their names.
+            kinds: prefixes of the kinds of places that people know by name.
         """
         words = gazetteer.objects
         roads = gazetteer.by_kind.get(STREET_KIND, np.zeros(0, np.int64))
@@ -179,17 +157,19 @@ class Landmarks:
         names = NameIndex.build([words[n].names for n in known.tolist()], are_streets=False)
         addresses = Addresses.build(words)
         spools = [Spool() for _ in range(4)]
-        for first in range(0, len(centers_m) or 1, AT_ONCE):
-            chances = NameProbabilities(gazetteer, centers_m[first : first + AT_ONCE])
-            on_street = chances.on_street(roads, streets)
-            pairs, on, other = chances.crossings(roads, streets, on_street)
-            found = on_street, chances.said(known, names), chances.numbered(addresses), pairs
-            for spool, rows in zip(spools, found, strict=True):
+        for first in range(0, len(centers_m) or 1, CELLS_PER_BLOCK):
+            probabilities = NameProbabilities(gazetteer, centers_m[first : first + CELLS_PER_BLOCK])
+            on_street = probabilities.on_street(roads, streets)
+            pairs, on, other = probabilities.crossings(roads, streets, on_street)
+            blocks = on_street, probabilities.on_sign(known, names), probabilities.at_address(addresses), pairs
+            for spool, rows in zip(spools, blocks, strict=True):
                 spool.add(_entries_of(rows))
-        tables = [Table.of_entries(rows.shape[1], spool.columns()) for spool, rows in zip(spools, found, strict=True)]
-        on_street_table, said, numbered, crossing = tables
-        crossings = Crossings(crossing, on, other, max(1, len(streets)))
-        return cls(streets, names, addresses, on_street_table, said, numbered, crossings)
+        street_table, name_table, address_table, pair_table = (
+            NameProbabilityTable.from_entries(rows.shape[1], spool.columns())
+            for rows, spool in zip(blocks, spools, strict=True)
+        )
+        crossings = Crossings(pair_table, on, other, max(1, len(streets)))
+        return cls(streets, names, addresses, street_table, name_table, address_table, crossings)
 
     @property
     def has_corners(self) -> bool:
@@ -198,32 +178,30 @@ class Landmarks:
 
     def save(self, directory: Path) -> None:
         """Write the landmarks to one file."""
-        tables = [getattr(self, name).columns(name) for name in _TABLES]
+        tables = self.street_table, self.name_table, self.address_table, self.crossings.pairs
+        columns = [table.columns(name) for table, name in zip(tables, _TABLES, strict=True)]
         crossings = {"crossings.on": self.crossings.on, "crossings.other": self.crossings.other}
         names = [self.streets.columns("streets"), self.names.columns("names"), self.addresses.columns("addresses")]
-        save_file(
-            merge_columns([*tables, *names, self.crossings.pairs.columns("crossings"), crossings]), directory / FILE
-        )
+        save_file(merge_columns([*columns[:3], *names, columns[3], crossings]), directory / FILE)
 
     @classmethod
     def load(cls, directory: Path) -> "Landmarks":
         """Load saved landmarks.
 
         Raises:
-            IndexBroken: the file does not hold it.
+            IndexBroken: the file is missing or damaged.
         """
         try:
             columns = map_arrays(directory / FILE)[0]
-            streets, names = (
-                NameIndex.from_columns(columns, name, are_streets=name == "streets") for name in ("streets", "names")
-            )
-            on_street, said, numbered, pairs = (Table.from_columns(columns, name) for name in (*_TABLES, "crossings"))
-            on, other = columns["crossings.on"], columns["crossings.other"]
-            crossings = Crossings(pairs, on, other, max(1, len(streets)))
+            streets = NameIndex.from_columns(columns, "streets", are_streets=True)
+            names = NameIndex.from_columns(columns, "names", are_streets=False)
             addresses = Addresses.from_columns(columns, "addresses")
-            return cls(streets, names, addresses, on_street, said, numbered, crossings)
+            tables = [NameProbabilityTable.from_columns(columns, name) for name in _TABLES]
+            on, other = columns["crossings.on"], columns["crossings.other"]
+            crossings = Crossings(tables[3], on, other, max(1, len(streets)))
+            return cls(streets, names, addresses, tables[0], tables[1], tables[2], crossings)
         except (OSError, SafetensorError, ValueError, KeyError, TypeError, RuntimeError) as error:
             raise IndexBroken(f"{directory / FILE} cannot be read; rebuild it with 'hereabouts index'") from error
 
 
-_TABLES: Final = ("on_street", "said", "numbered")
+_TABLES: Final = ("on_street", "said", "numbered", "crossings")  # their names on disk

@@ -13,36 +13,23 @@ from models.strings import Column, Postings, StringArray
 
 @dataclass(frozen=True, slots=True, eq=False)
 class NameIndex:
-    """An index of names; each has a column of a table.
+    """An index of names; each has a column of a table."""
 
-    Attributes:
-        are_streets: whether they are of streets, which are also known by forms such as "W 25th St" and "25th".
-        shown: [K] the name to show of each column.
-        column: [objects] of each.
-        whole: from plain names to columns.
-        part: from other forms of a street's name to columns.
-    """
-
-    are_streets: bool
-    shown: StringArray
-    column: Ints
-    whole: Postings
-    part: Postings
+    are_streets: bool  # streets are also known by forms such as "W 25th St" and "25th"
+    shown: StringArray  # [K] the name to show of each column
+    column: Ints  # column of each object
+    whole: Postings  # from plain names to columns
+    part: Postings  # from other forms of a street's name to columns
 
     @classmethod
     def build(cls, names: Sequence[tuple[str, ...]], *, are_streets: bool) -> "NameIndex":
-        """Build the index of objects.
-
-        Args:
-            names: of each object all its names, the one to show first; objects whose first are alike share a column.
-            are_streets: as the attribute.
-        """
+        """Build the index of objects by their names, the one to show first; equal first names share a column."""
         columns, shown = dict[str, int](), list[str]()
-        column = [columns.setdefault(_plain(some[0], are_streets), len(columns)) for some in names]
-        for some, number in zip(names, column, strict=True):
+        column = [columns.setdefault(_plain(all_names[0], are_streets), len(columns)) for all_names in names]
+        for all_names, number in zip(names, column, strict=True):
             if number == len(shown):
-                shown.append(some[0])
-        named = [(name, number) for some, number in zip(names, column, strict=True) for name in some]
+                shown.append(all_names[0])
+        named = [(name, number) for all_names, number in zip(names, column, strict=True) for name in all_names]
         whole = Postings.from_pairs((_plain(name, are_streets), number) for name, number in named)
         part = Postings.from_pairs(_forms(named) if are_streets else ())
         return cls(are_streets, StringArray.from_strings(shown), np.array(column, np.int32), whole, part)
@@ -57,8 +44,8 @@ class NameIndex:
 
     def columns(self, name: str) -> dict[str, Column]:
         """Return the arrays that `from_columns` reads."""
-        found = {f"{name}.column": self.column} | self.shown.columns(f"{name}.shown")
-        return found | self.whole.columns(f"{name}.whole") | self.part.columns(f"{name}.part")
+        columns = {f"{name}.column": self.column} | self.shown.columns(f"{name}.shown")
+        return columns | self.whole.columns(f"{name}.whole") | self.part.columns(f"{name}.part")
 
     @classmethod
     def from_columns(cls, columns: Mapping[str, Column], name: str, *, are_streets: bool) -> "NameIndex":

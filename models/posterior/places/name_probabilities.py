@@ -13,13 +13,14 @@ from models.citymap.types import Floats
 from models.posterior.places.addresses import Addresses
 from models.posterior.places.name_index import NameIndex
 
-ON_STREET_M: Final = 40.0  # as far as a street may be which somebody says to be on
-BETWEEN_M: Final = 8.0  # by which of two streets or houses one must be nearer to be the one
-SEEN_M, SEEN_SOFT_M = 30.0, 8.0  # as far as the sign over a door is read, about
-NAMED_M: Final = 15.0  # over which it is said less often than what is nearer
-CORNERS: Final = 4  # of a street that may be the nearest
-NEAREST_M: Final = 15.0  # by which of two corners one must be nearer to be the one
-BLOCK_M: Final = 80.0  # cells are looked at together that lie in a square of this
+# Not measured: how people judge these.
+ON_STREET_REACH_M: Final = 40.0  # of a street that somebody may be on
+NEARER_SOFT_M: Final = 8.0  # by which the nearest of streets or houses must be nearer
+LEGIBLE_M, LEGIBLE_SOFT_M = 30.0, 8.0  # up to which a sign can be read
+NAME_DECAY_M: Final = 15.0  # over which a name is given less often
+CORNER_SOFT_M: Final = 15.0  # by which the nearest of corners must be nearer
+MAX_CORNERS: Final = 4  # of a street that may be the nearest
+BLOCK_M: Final = 80.0  # cells in a square of this size are searched together
 Entries = tuple[Ints, Ints, Floats]  # rows, columns and values of a sparse table
 
 
@@ -40,25 +41,25 @@ class NameProbabilities:
 
     def on_street(self, objects: Ints, streets: NameIndex) -> csr_array:
         """Return the probability [N, S] that a person in a cell names each street as theirs."""
-        metres = self._metres(objects, streets, ON_STREET_M)
+        metres = self._metres(objects, streets, ON_STREET_REACH_M)
         cell, nearest = _nearest(metres)
-        metres.data = shares(cell, np.exp((nearest[cell] - metres.data) / BETWEEN_M))
+        metres.data = shares(cell, np.exp((nearest[cell] - metres.data) / NEARER_SOFT_M))
         return metres
 
-    def said(self, objects: Ints, names: NameIndex) -> csr_array:
+    def on_sign(self, objects: Ints, names: NameIndex) -> csr_array:
         """Return the probability [N, K] that a person in a cell names each place when asked for one."""
-        metres = self._metres(objects, names, SEEN_M + 3 * SEEN_SOFT_M)
+        metres = self._metres(objects, names, LEGIBLE_M + 3 * LEGIBLE_SOFT_M)
         cell, nearest = _nearest(metres)
-        share = shares(cell, np.exp(-metres.data / NAMED_M) * _is_seen(metres.data))
-        metres.data = share * _is_seen(nearest)[cell]
+        share = shares(cell, np.exp(-metres.data / NAME_DECAY_M) * _is_legible(metres.data))
+        metres.data = share * _is_legible(nearest)[cell]
         return metres
 
-    def numbered(self, addresses: Addresses) -> csr_array:
+    def at_address(self, addresses: Addresses) -> csr_array:
         """Return the probability [N, K] that a person in a cell gives each address as the nearest."""
-        metres = self._metres(addresses.objects, addresses, SEEN_M + 3 * SEEN_SOFT_M)
+        metres = self._metres(addresses.objects, addresses, LEGIBLE_M + 3 * LEGIBLE_SOFT_M)
         cell, nearest = _nearest(metres)
-        share = shares(cell, np.exp((nearest[cell] - metres.data) / BETWEEN_M))
-        metres.data = share * _is_seen(nearest)[cell]
+        share = shares(cell, np.exp((nearest[cell] - metres.data) / NEARER_SOFT_M))
+        metres.data = share * _is_legible(nearest)[cell]
         return metres
 
     def crossings(self, objects: Ints, streets: NameIndex, on_street: csr_array) -> tuple[csr_array, Ints, Ints]:
@@ -71,39 +72,41 @@ class NameProbabilities:
         to_column[objects] = streets.column
         pair = to_column[self._gazetteer.corner_streets.reshape(-1, 2)]
         on, other = np.concatenate([pair, pair[:, ::-1]]).T
-        at = np.tile(self._gazetteer.corners_m.astype(np.float64), (2, 1))
-        there = on_street.tocsc()
+        corners_m = np.tile(self._gazetteer.corners_m.astype(np.float64), (2, 1))
+        by_street = on_street.tocsc()
         order = np.argsort(on, kind="stable")
-        order = order[np.diff(there.indptr)[on[order]] > 0]  # of streets that any of the cells are on
+        order = order[np.diff(by_street.indptr)[on[order]] > 0]  # of streets that any of the cells are on
         first = np.flatnonzero(np.diff(on[order], prepend=-1))
-        found = [self._corners(there, int(on[corners[0]]), corners, at) for corners in np.split(order, first)[1:]]
-        cell, corner, chance = (np.concatenate([some[n] for some in found]) if found else _EMPTY for n in range(3))
+        entries = [
+            self._corners(by_street, int(on[corners[0]]), corners, corners_m) for corners in np.split(order, first)[1:]
+        ]
+        cell, corner, chance = (np.concatenate([part[n] for part in entries]) if entries else _EMPTY for n in range(3))
         count = max(1, len(streets))
         pairs, column = np.unique(on * count + other, return_inverse=True)
         shape = len(self._order), max(1, len(pairs))
         table = csr_array((chance, (cell.astype(np.int64), column[corner.astype(np.int64)])), shape=shape)
         return table, pairs // count, pairs % count
 
-    def _corners(self, there: csc_array, street: int, corners: Ints, at: Floats) -> Entries:
+    def _corners(self, on_street: csc_array, street: int, corners: Ints, corners_m: Floats) -> Entries:
         """Return (cell, corner, probability) of the nearest corners of a street in the cells on it."""
-        of = slice(there.indptr[street], there.indptr[street + 1])
-        cells, chance = there.indices[of], there.data[of]
-        few = min(CORNERS, len(corners))
-        metres, row = cKDTree(at[corners]).query(self._centers_m[cells], k=range(1, few + 1))
-        weight = np.exp((metres[:, :1] - metres) / NEAREST_M)
+        entries = slice(on_street.indptr[street], on_street.indptr[street + 1])
+        cells, chance = on_street.indices[entries], on_street.data[entries]
+        count = min(MAX_CORNERS, len(corners))
+        metres, row = cKDTree(corners_m[corners]).query(self._centers_m[cells], k=range(1, count + 1))
+        weight = np.exp((metres[:, :1] - metres) / CORNER_SOFT_M)
         weight *= (chance / weight.sum(axis=1))[:, None]
-        return np.repeat(cells, few), corners[row].ravel(), weight.ravel()
+        return np.repeat(cells, count), corners[row].ravel(), weight.ravel()
 
     def _metres(self, objects: Ints, names: NameIndex | Addresses, reach_m: float) -> csr_array:
         """Return the distance [N, names] to the nearest object of each name within reach."""
         shape = (len(self._order), max(1, len(names)))
         if not len(objects):
             return csr_array(shape)
-        ways = find_closest_points(self._around, *select_objects(self._gazetteer, objects), reach_m)
-        entry = self._order[ways.point] * shape[1] + names.column[ways.target]
+        closest = find_closest_points(self._around, *select_objects(self._gazetteer, objects), reach_m)
+        entry = self._order[closest.point] * shape[1] + names.column[closest.target]
         order = np.argsort(entry, kind="stable")
         first = np.flatnonzero(np.diff(entry[order], prepend=-1))
-        metres = np.minimum.reduceat(ways.distance_m[order], first) if len(first) else np.zeros(0)
+        metres = np.minimum.reduceat(closest.distance_m[order], first) if len(first) else np.zeros(0)
         cell, name = np.divmod(entry[order[first]], shape[1])
         return csr_array((metres, name, np.searchsorted(cell, np.arange(shape[0] + 1))), shape=shape)
 
@@ -125,6 +128,6 @@ def shares(cell: Ints, weight: Floats) -> Floats:
     return share
 
 
-def _is_seen(metres: Floats) -> Floats:
-    chance: Floats = 1 / (1 + np.exp(np.minimum((metres - SEEN_M) / SEEN_SOFT_M, 50.0)))
+def _is_legible(metres: Floats) -> Floats:
+    chance: Floats = 1 / (1 + np.exp(np.minimum((metres - LEGIBLE_M) / LEGIBLE_SOFT_M, 50.0)))
     return chance

@@ -19,9 +19,9 @@ from models.language.mentions.cue_reader import CueReader
 from models.language.mentions.lookup import Lookup
 from models.language.mentions.reader import find_mentions, is_meeting, listener_wind, mark_goal
 from models.language.text_encoder import TextEncoder
-from models.posterior.locate import PLACE_HIT_M
-from models.posterior.places.explanations import Places
-from models.posterior.places.field import PlaceField, Rough
+from models.posterior.locate import PLACE_PEAK_RADIUS_M
+from models.posterior.places.explanations import PlacedMentions
+from models.posterior.places.field import CoarseDistances, PlaceField
 from models.posterior.places.kernels import HEADINGS, PlaceKernels
 from models.sources.place_texts import START_SIGMA_M, PlaceText
 
@@ -64,12 +64,12 @@ class KernelExample:
     """A text with everything that does not depend on the weights: nodes of some cells, and the true position."""
 
     field: PlaceField
-    places: Places
+    placed: PlacedMentions
     points_m: Floats
-    ways: Sequence[ClosestPoints]
-    rough: Sequence[Rough]
+    closest: Sequence[ClosestPoints]
+    distances: Sequence[CoarseDistances]
     log_prior: Tensor
-    walked: Tensor
+    walkway_distance_m: Tensor
     blur: Tensor
     goal_m: Floats
     cell: Ints
@@ -158,11 +158,11 @@ def _example(
     if meets:
         mentions = mark_goal(mentions)
     wind = None if listener_m is None else listener_wind(text.text)
-    evidence = field.told(mentions, listener_m, wind, is_meeting=meets)
-    if not evidence.places.mentions:
+    evidence = field.evidence(mentions, listener_m, wind, is_meeting=meets)
+    if not evidence.placed.mentions:
         return None
     goal, centers = texts.frame.from_wgs84(*text.goal), texts.centers_m
-    scores = evidence.cells + _log_prior(centers, listener_m)
+    scores = evidence.cell_log_p + _log_prior(centers, listener_m)
     near = np.flatnonzero(np.hypot(*(centers - goal).T) < TRUE_CELL_RADIUS_M)
     cells = np.unique(np.concatenate([np.argsort(-scores)[:HARD_CELLS], near, rng.choice(len(centers), RANDOM_CELLS)]))
     points, group = _nodes(centers[cells], texts.grid_m)
@@ -170,12 +170,12 @@ def _example(
     squared_m2 = ((points - goal) ** 2).sum(axis=1)
     return KernelExample(
         field=field,
-        places=evidence.places,
+        placed=evidence.placed,
         points_m=points,
-        ways=[field.ways_from(mention, around) for mention in evidence.places.mentions],
-        rough=[field.rough(mention, sample) for mention in evidence.places.mentions],
+        closest=[field.closest_points(mention, around) for mention in evidence.placed.mentions],
+        distances=[field.coarse_distances(mention, sample) for mention in evidence.placed.mentions],
         log_prior=torch.from_numpy(_log_prior(points, listener_m)).float(),
-        walked=field.walked(evidence.places, points),
+        walkway_distance_m=field.walkway_distance_m(evidence.placed, points),
         blur=torch.from_numpy(-squared_m2 / (2 * BLUR_M**2)).float(),
         goal_m=goal,
         cell=group,
@@ -194,13 +194,12 @@ def _loss(example: KernelExample) -> Tensor:
 def _log_p(example: KernelExample) -> Tensor:
     """Return the unnormalised log posterior [M] of the nodes."""
     field, total = example.field, torch.zeros(len(example.points_m), HEADINGS)
-    for mention, ways, rough in zip(example.places.mentions, example.ways, example.rough, strict=True):
-        total = total + field.worth(
-            mention, field.fits(mention, ways, len(example.points_m)), field.usual(mention, rough)
-        )
+    for mention, closest, distances in zip(example.placed.mentions, example.closest, example.distances, strict=True):
+        fits = field.fits(mention, closest, len(example.points_m))
+        total = total + field.log_evidence(mention, fits, field.coarse_kernel_mean(mention, distances))
     log_p = field.kernels.temper.exp() * (total.logsumexp(dim=1) - log(HEADINGS))
-    log_p = log_p + field.kernels.standing(example.walked)
-    return log_p + field.from_listener(example.places, example.points_m) + example.log_prior
+    log_p = log_p + field.kernels.standing(example.walkway_distance_m)
+    return log_p + field.from_listener(example.placed, example.points_m) + example.log_prior
 
 
 def calibrate_kernels(
@@ -247,7 +246,7 @@ def _outcome(example: KernelExample) -> tuple[float, float, float]:
     hit = best == int(np.hypot(*(example.centers_m - example.goal_m).T).argmin())
     heavy = np.argsort(-weight)[:HEAVY_NODES]
     squared_m2 = ((example.points_m[heavy][:, None] - example.points_m[heavy][None]) ** 2).sum(axis=2)
-    position = example.points_m[heavy[(np.exp(-((squared_m2 / PLACE_HIT_M**2) ** 3)) @ weight[heavy]).argmax()]]
+    position = example.points_m[heavy[(np.exp(-((squared_m2 / PLACE_PEAK_RADIUS_M**2) ** 3)) @ weight[heavy]).argmax()]]
     radius = np.hypot(*(example.points_m - position).T)
     order = np.argsort(radius)
     p90 = radius[order][np.searchsorted(np.cumsum(weight[order]), RADIUS_MASS)]

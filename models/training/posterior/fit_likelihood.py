@@ -11,7 +11,7 @@ from torch import Tensor
 
 from models.citymap.cells import CellTable
 from models.citymap.points import Ints, ranges
-from models.posterior.likelihood import Likelihood, Reading
+from models.posterior.likelihood import BoundHints, Likelihood
 from models.posterior.node_batch import NodeBatch
 from models.posterior.posterior import HintPosterior
 from models.training.posterior.training_sites import TrainingSite
@@ -31,12 +31,12 @@ class SiteTexts:
     Attributes:
         site: the site.
         rows: [Q] rows of the positions in the site.
-        readings: Q bound hints.
+        bound_hints: Q bound hints.
     """
 
     site: TrainingSite
     rows: Ints
-    readings: Sequence[Reading]
+    bound_hints: Sequence[BoundHints]
 
 
 def fit_likelihood(
@@ -55,7 +55,7 @@ def fit_likelihood(
         rng: draws texts and cells.
         progress: called with (steps done, steps, recent mean loss).
     """
-    sizes = np.array([len(part.readings) for part in texts], dtype=np.float64)
+    sizes = np.array([len(part.bound_hints) for part in texts], dtype=np.float64)
     start = [part.site.posterior(likelihood) for part in texts]  # selects cells; has the means over the map
     trees = [_tree(part.site.cells) for part in texts]
     optimizer = torch.optim.Adam(likelihood.parameters(), LEARNING_RATE)
@@ -66,9 +66,9 @@ def fit_likelihood(
         optimizer.zero_grad()
         for _ in range(BATCH_TEXTS):
             n = int(rng.choice(len(texts), p=sizes / sizes.sum()))
-            query = int(rng.integers(len(texts[n].readings)))
+            query = int(rng.integers(len(texts[n].bound_hints)))
             cells = _cells(texts[n], start[n], trees[n], query, rng)
-            loss = negative_log_density(likelihood, texts[n], query, cells, start[n].usual)
+            loss = negative_log_density(likelihood, texts[n], query, cells, start[n].mean_statements)
             (loss / BATCH_TEXTS).backward()
             losses.append(loss.item())
         torch.nn.utils.clip_grad_norm_(likelihood.parameters(), 5.0)
@@ -77,11 +77,13 @@ def fit_likelihood(
             progress(step + 1, steps, float(np.mean(losses[-20 * BATCH_TEXTS :])))
 
 
-def negative_log_density(likelihood: Likelihood, texts: SiteTexts, query: int, cells: Ints, usual: Tensor) -> Tensor:
-    """Return -log of the posterior density at the truth over the nodes of some cells; `usual` is the map mean."""
+def negative_log_density(
+    likelihood: Likelihood, texts: SiteTexts, query: int, cells: Ints, mean_statements: Tensor
+) -> Tensor:
+    """Return -log of the posterior density at the truth over the nodes of some cells."""
     site, row = texts.site, int(texts.rows[query])
     nodes, batch = nodes_of_cells(site, cells)
-    log_p = likelihood(texts.readings[query], batch, site.palette, usual)
+    log_p = likelihood(texts.bound_hints[query], batch, site.palette, mean_statements)
     scene = np.unique(site.cells.scenes, return_inverse=True)[1]
     owner = np.repeat(cells, np.diff(site.surroundings.cell_starts)[cells])
     squared_m2 = ((site.surroundings.positions_m(nodes) - site.positions_m[row]) ** 2).sum(axis=1)
@@ -95,8 +97,8 @@ def nodes_of_cells(site: TrainingSite, cells: Ints) -> tuple[Ints, NodeBatch]:
     """Return the nodes of some cells with their neighbours."""
     s = site.surroundings
     nodes = ranges(s.cell_starts[cells], s.cell_starts[cells + 1])
-    label, rgb = torch.from_numpy(site.label), torch.from_numpy(s.things.rgb.astype(np.float32))
-    is_vague = torch.from_numpy(s.things.is_vague)
+    label, rgb = torch.from_numpy(site.label), torch.from_numpy(s.objects.rgb.astype(np.float32))
+    is_vague = torch.from_numpy(s.objects.is_vague)
     return nodes, NodeBatch.from_neighbours(s.around(nodes), len(nodes), label, rgb, is_vague)
 
 
@@ -109,7 +111,7 @@ def _cells(
     texts: SiteTexts, start: HintPosterior, tree: cKDTree, query: int, rng: np.random.Generator
 ) -> npt.NDArray[np.int64]:
     """Select the cells near the truth, the best-scoring cells, and random cells."""
-    scores = start.cell_scores(texts.readings[query])
+    scores = start.cell_scores(texts.bound_hints[query])
     hard = np.argpartition(-scores, min(HARD_CELLS, len(scores) - 1))[:HARD_CELLS]
     near = tree.query_ball_point(tree.data[texts.site.truth[texts.rows[query]]], TRUE_CELL_RADIUS_M)
     random = rng.choice(len(scores), min(RANDOM_CELLS, len(scores)), replace=False)

@@ -11,10 +11,11 @@ import torch
 from models.checkpoint import CONFIG_FILE, round_weights
 from models.language.grammar.files import Grammar, load_grammar
 from models.language.text_encoder import load_text_encoder
-from models.posterior.distribution import TOLD
+from models.posterior.distribution import RADIUS_MASSES
 from models.posterior.likelihood import Likelihood
 from models.posterior.locate import locate
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior, save_posterior
+from models.posterior.posterior import PositionEvidence
 from models.sources.source import open_sources
 from models.training.engine.devices import on_device
 from models.training.engine.loop import Progress, pick_device, run_training
@@ -166,7 +167,7 @@ def calibrate_near_factor(
         parameter.requires_grad_(True)
     _calibrate_temper(model.likelihood, texts)
     error, share, hit, _ = np.concatenate([_outcomes(model.likelihood, part) for part in texts]).T
-    half, most = (float(mass) for mass in np.quantile(share, TOLD).clip(0.01, 0.999))
+    half, most = (float(mass) for mass in np.quantile(share, RADIUS_MASSES).clip(0.01, 0.999))
     model.config = model.config.model_copy(update={"radius_held": (half, most)})
     metrics = {"recall@1": float(hit.mean()), "within_5m": float((error <= 5).mean())}
     return metrics | {"held_p50": half, "held_p90": most}
@@ -194,8 +195,8 @@ def _outcomes(likelihood: Likelihood, texts: SiteTexts) -> Columns:
     site, posterior = texts.site, texts.site.posterior(likelihood)
     scenes = np.array(site.cells.scenes)
     outcomes = []
-    for row, reading in zip(texts.rows, texts.readings, strict=True):
-        located = locate(posterior, reading)
+    for row, hints in zip(texts.rows, texts.bound_hints, strict=True):
+        located = locate(posterior, PositionEvidence(hints))
         assert located is not None
         same = scenes[located.rows[0]] == scenes[site.truth[row]]
         error = float(np.linalg.norm(located.positions[0] - site.positions_m[row])) if same else np.inf

@@ -16,7 +16,7 @@ from models.language.grammar.labelled_text import Fact
 from models.language.grammar.wording import Wording
 from models.language.measures import compass_name
 from models.posterior.binding import Binding
-from models.posterior.likelihood import Likelihood, Reading
+from models.posterior.likelihood import BoundHints, Likelihood
 from models.posterior.model import PosteriorModel
 from models.posterior.neighbours.neighbour_index import NeighbourIndex, build_neighbour_index
 from models.posterior.posterior import HintPosterior
@@ -62,7 +62,7 @@ class TrainingSite:
         data, hints = source.data, queries.hints
         assert hints is not None
         surroundings = build_neighbour_index(source.geometry(), data.cells)
-        labels, label = surroundings.things.labels(data.gallery)
+        labels, label = surroundings.objects.labels(data.gallery)
         return cls(
             surroundings=surroundings,
             cells=replace(data.cells, sample=None),  # drops the points of the map
@@ -80,7 +80,7 @@ class TrainingSite:
 
     def read(
         self, model: PosteriorModel, rows: Ints, grammars: Sequence[Grammar | None], rng: np.random.Generator
-    ) -> list[Reading]:
+    ) -> list[BoundHints]:
         """Write and read texts about some positions.
 
         Some texts contain a false fact (`SLIP_SHARE`), fewer facts (`OMISSION_SHARE`), or distant things
@@ -106,11 +106,11 @@ class TrainingSite:
                 facts += self._distant_facts(int(row), rng)
             wording = wordings[grammar]
             texts.append((wording.write(facts, rng) if grammar else wording.published(facts)).text)
-        readings = []
+        bound_hints = []
         for start in range(0, len(texts), READ_BATCH):
             read = model.reader.read(texts[start : start + READ_BATCH])
-            readings += [binding.reading(noticed) if noticed else binding.nothing() for noticed in read]
-        return readings
+            bound_hints += [binding.bind(hints) if hints else binding.uninformative_hint() for hints in read]
+        return bound_hints
 
     def _distant_facts(self, row: int, rng: np.random.Generator) -> list[Fact]:
         """Return one or two facts from the hints of positions some tens of metres away."""

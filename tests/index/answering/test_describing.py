@@ -35,7 +35,7 @@ def surroundings(source, cells):
 @pytest.fixture(scope="module")
 def bare(surroundings):
     """As if nothing were near any node."""
-    return replace(surroundings, things=replace(surroundings.things, parts=0 * surroundings.things.parts))
+    return replace(surroundings, objects=replace(surroundings.objects, parts=0 * surroundings.objects.parts))
 
 
 @pytest.fixture(scope="module")

@@ -29,9 +29,9 @@ def test_the_cells_inside_are_those_of_which_a_node_is(localizer, crs) -> None:
         query = Query("a tree", within=within, crs=crs)
         inside = nodes_inside(query, surroundings, centers_m, localizer.frame)
         every = is_inside(query, positions_m, localizer.frame)
-        assert (inside.holds(positions_m) == every).all()
+        assert (inside.contains(positions_m) == every).all()
         naive = np.bincount(surroundings.owner(nodes[every]), minlength=len(centers_m)) > 0
-        assert (inside.cells == naive).all()
+        assert (inside.has_node == naive).all()
         shares.append(naive.mean())
     assert min(shares) < 0.1
     assert max(shares) > 0.3
@@ -51,7 +51,7 @@ def test_few_nodes_are_looked_at_however_many_there_are(localizer) -> None:
     centers_m = localizer.gallery.cells.center_m[:, :2]
     box = Box(*(centers_m.min(axis=0) + 40).tolist(), *(centers_m.max(axis=0) - 40).tolist())
     inside = nodes_inside(Query("a tree", within=box, crs="map"), Looked(), centers_m, localizer.frame)
-    assert inside.cells.sum() > 20
+    assert inside.has_node.sum() > 20
     assert sum(looked) < 0.8 * surroundings.cell_starts[-1], "those at the border alone"
 
 
@@ -60,5 +60,5 @@ def test_a_box_round_the_world_has_all_of_a_map_and_one_elsewhere_nothing(locali
     owning = np.diff(surroundings.cell_starts) > 0
     for within, expected in ((WORLD, owning), (Box(-70.0, -40.0, -60.0, -30.0), np.zeros_like(owning))):
         query = Query("a tree", within=within, crs="wgs84")
-        assert (nodes_inside(query, surroundings, centers_m, localizer.frame).cells == expected).all()
+        assert (nodes_inside(query, surroundings, centers_m, localizer.frame).has_node == expected).all()
     assert nodes_inside(Query("a tree"), surroundings, centers_m, localizer.frame) is None

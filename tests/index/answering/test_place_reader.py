@@ -156,7 +156,7 @@ def test_what_is_near_stays_a_hint_and_what_the_heading_tells_is_a_mention(local
     posterior = localizer.posterior
     for text, owned in (("I am north of a bench.", 1), ("There is a bench on my left.", 0)):
         [hints] = posterior.chunk_reader.parse([text])
-        trust = posterior.binding.reading(hints).label.amax(dim=1).tolist()
+        trust = posterior.binding.bind(hints).label.amax(dim=1).tolist()
         mentions = posterior.places.read(text, "en", to_listener=False)
         near, places = near_hints(hints, trust, mentions)
         assert (len(near), len(places)) == (owned, 1 - owned)

@@ -6,7 +6,7 @@ from index.asking.open_questions import OpenQuestions
 from index.asking.question_spec import OPEN_QUESTIONS, QuestionSpec
 from models.errors import ReplyError
 from models.posterior.places.landmarks import Landmarks
-from models.posterior.questions import WRONG
+from models.posterior.questions import WRONG_REPLY_SHARE
 from tests.models.citymap.gazetteer.made_town import made_gazetteer
 
 CENTERS = np.array(
@@ -28,31 +28,32 @@ def test_what_can_be_said_is_what_the_rows_have(questions, kind):
     total = np.zeros(len(CENTERS))
     for n in range(names):
         [name] = questions.likeliest_names(QuestionSpec(kind), np.eye(names)[n])
-        chance = np.exp(questions.answered([Reply(kind, name.upper())]))
+        chance = np.exp(questions.log_p([Reply(kind, name.upper())]))
         right = rows.toarray()[:, n]
-        assert chance == pytest.approx((1 - WRONG) * right + WRONG * (1 - right) / (names - 1))
+        assert chance == pytest.approx((1 - WRONG_REPLY_SHARE) * right + WRONG_REPLY_SHARE * (1 - right) / (names - 1))
         total += chance
     here = rows.sum(axis=1)
     assert here.max() > 0.9
     # who has none to say does not know, but for errors
-    assert total == pytest.approx(here + WRONG * (1 - here) * names / (names - 1))
+    assert total == pytest.approx(here + WRONG_REPLY_SHARE * (1 - here) * names / (names - 1))
 
 
 def test_the_cross_street_is_of_the_street_that_was_said(questions):
     at_corner, on_west = 2, Reply("street", "W 25th St")
     crossing = {
-        street: questions.answered([on_west, Reply("corner", street)]) - questions.answered([on_west])
+        street: questions.log_p([on_west, Reply("corner", street)]) - questions.log_p([on_west])
         for street in ("10th Avenue", "West 25th Street")
     }
-    assert np.exp(crossing["10th Avenue"][at_corner]) == pytest.approx(1 - WRONG, abs=0.01)
-    assert np.exp(crossing["West 25th Street"][at_corner]) == pytest.approx(WRONG / (NAMES["street"] - 1), abs=0.01)
+    assert np.exp(crossing["10th Avenue"][at_corner]) == pytest.approx(1 - WRONG_REPLY_SHARE, abs=0.01)
+    wrong = WRONG_REPLY_SHARE / (NAMES["street"] - 1)
+    assert np.exp(crossing["West 25th Street"][at_corner]) == pytest.approx(wrong, abs=0.01)
     rows, _ = questions.rows(QuestionSpec("corner"), np.array([at_corner]), [on_west])
     assert questions.likeliest_names(QuestionSpec("corner"), rows.toarray()[0])[0] == "10th Avenue"
 
 
 def test_what_is_unknown_or_closed_tells_nothing(questions):
-    assert questions.answered([]) is None
-    assert questions.answered([Reply("street", "unknown"), Reply("near:tree", "yes")]) is None
+    assert questions.log_p([]) is None
+    assert questions.log_p([Reply("street", "unknown"), Reply("near:tree", "yes")]) is None
 
 
 @pytest.mark.parametrize(
@@ -60,7 +61,7 @@ def test_what_is_unknown_or_closed_tells_nothing(questions):
 )
 def test_a_name_that_the_map_has_not_is_refused_with_advice(questions, kind, what):
     with pytest.raises(ReplyError, match=rf"^answers\[1\]\.choice: is not a {what} .*description.*unknown") as raised:
-        questions.answered([Reply("near:tree", "yes"), Reply(kind, "Elm Street")])
+        questions.log_p([Reply("near:tree", "yes"), Reply(kind, "Elm Street")])
     assert (raised.value.number, raised.value.field) == (1, "choice")
 
 

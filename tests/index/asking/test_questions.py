@@ -53,24 +53,26 @@ def questions_asked(posterior):
 )
 def test_the_chances_of_all_answers_add_up_to_one_everywhere(posterior, one):
     nodes = np.arange(posterior.surroundings.cell_starts[-1])
-    evidence = [posterior.questions.answered([Reply(one.id, value)]) for value in one.values]
-    assert sum(np.exp(each.at(nodes)) for each in evidence) == pytest.approx(np.ones(len(nodes)))
-    assert sum(np.exp(each.cells) for each in evidence) == pytest.approx(np.ones(len(posterior.gallery.cells)))
+    evidence = [posterior.questions.reply_evidence([Reply(one.id, value)]) for value in one.values]
+    assert sum(np.exp(each.log_p(nodes)) for each in evidence) == pytest.approx(np.ones(len(nodes)))
+    assert sum(np.exp(each.cell_log_p) for each in evidence) == pytest.approx(np.ones(len(posterior.gallery.cells)))
 
 
 def test_an_answer_is_true_where_the_map_says_so(posterior):
     nodes_m = posterior.surroundings.positions_m(np.arange(posterior.surroundings.cell_starts[-1]))
     on_first = posterior.frame.from_wgs84(LAT + 60 * LAT_M, LON + 150 * LON_M)  # half way along it
     nodes = np.flatnonzero(np.hypot(*(nodes_m - on_first).T) < 5.0)
-    one, other = (posterior.questions.answered([Reply("street", f"East Street {n}")]) for n in (1, 2))
+    one, other = (posterior.questions.reply_evidence([Reply("street", f"East Street {n}")]) for n in (1, 2))
     assert len(nodes) > 10
-    assert (one.at(nodes) > other.at(nodes) + 1).all()
+    assert (one.log_p(nodes) > other.log_p(nodes) + 1).all()
 
 
 def test_the_chances_of_all_names_add_up_to_one_where_there_is_a_street(posterior):
-    evidence = [posterior.questions.answered([Reply("street", f"East Street {n}")]).cells for n in range(6)]
-    evidence += [posterior.questions.answered([Reply("street", f"North Path {n}")]).cells for n in range(6)]
-    assert len(posterior.questions.answered([Reply("street", "East Street 1")]).cells) == len(posterior.gallery.cells)
+    evidence = [posterior.questions.reply_evidence([Reply("street", f"East Street {n}")]).cell_log_p for n in range(6)]
+    evidence += [posterior.questions.reply_evidence([Reply("street", f"North Path {n}")]).cell_log_p for n in range(6)]
+    assert len(posterior.questions.reply_evidence([Reply("street", "East Street 1")]).cell_log_p) == len(
+        posterior.gallery.cells
+    )
     chance = np.exp(evidence).sum(axis=0)
     assert chance.max() == pytest.approx(1.0, abs=1e-3)  # to half precision
     assert np.median(chance) > 0.9
@@ -78,8 +80,10 @@ def test_the_chances_of_all_names_add_up_to_one_where_there_is_a_street(posterio
 
 def test_a_name_is_compared_without_case_and_accents(posterior):
     nodes = np.arange(500)
-    plain, spelt = (posterior.questions.answered([Reply("street", s)]) for s in ("East Street 3", "EÁST  street, 3"))
-    assert (plain.at(nodes) == spelt.at(nodes)).all()
+    plain, spelt = (
+        posterior.questions.reply_evidence([Reply("street", s)]) for s in ("East Street 3", "EÁST  street, 3")
+    )
+    assert (plain.log_p(nodes) == spelt.log_p(nodes)).all()
 
 
 def test_an_open_reply_narrows_and_a_wrong_one_is_survived(posterior):
@@ -99,9 +103,9 @@ def test_an_open_reply_narrows_and_a_wrong_one_is_survived(posterior):
 def test_several_answers_multiply(posterior):
     replies = [Reply("near:bench", "yes"), Reply("way:tree", "north"), Reply("near:bollard", "unknown")]
     nodes = np.arange(500)
-    apart = [posterior.questions.answered([reply]) for reply in replies]
-    together = posterior.questions.answered(replies)
-    assert together.at(nodes) == pytest.approx(apart[0].at(nodes) + apart[1].at(nodes))
+    apart = [posterior.questions.reply_evidence([reply]) for reply in replies]
+    together = posterior.questions.reply_evidence(replies)
+    assert together.log_p(nodes) == pytest.approx(apart[0].log_p(nodes) + apart[1].log_p(nodes))
     assert apart[2] is None
 
 
@@ -110,7 +114,7 @@ def test_the_question_leaves_the_least_entropy_of_all_that_could_be_asked(poster
     [finding] = posterior.find([VAGUE])
     # of a map without names: what can be answered to an open question is not listed
     given = (
-        posterior.nodes.sights,
+        posterior.nodes.nearby_objects,
         list(posterior.labels),
         posterior.nodes._palette,
         EMPTY_GAZETTEER,
@@ -123,7 +127,7 @@ def test_the_question_leaves_the_least_entropy_of_all_that_could_be_asked(poster
         return np.array([weight[cell_of[located.points] == row].sum() for row in located.rows])
 
     def left(one):
-        evidence = [questions.answered([Reply(one.id, value)]).at(located.points) for value in one.values]
+        evidence = [questions.reply_evidence([Reply(one.id, value)]).log_p(located.points) for value in one.values]
         before = mass(located.weight)
         chance = np.stack([mass(located.weight * np.exp(log_p)) for log_p in evidence], axis=1)
         return expected_entropy(before / before.sum(), (chance / before[:, None].clip(1e-300))[None])[0]
@@ -141,9 +145,9 @@ def test_a_house_number_is_asked_for_where_a_word_would_tell_too_little(posterio
     questions_asked = numbered.ask_anywhere(everywhere, KnownFacts(), [])
     assert questions_asked.id == "address"
     assert [choice.value for choice in questions_asked.choices][-1] == "unknown"
-    evidence = numbered.answered([Reply("address", "17, east street 3")])
-    assert evidence.cells.argmax() == 16
-    two = np.where(np.isin(np.arange(len(everywhere)), evidence.cells.argsort()[[0, -1]]), 0.0, -np.inf)
+    evidence = numbered.reply_evidence([Reply("address", "17, east street 3")])
+    assert evidence.cell_log_p.argmax() == 16
+    two = np.where(np.isin(np.arange(len(everywhere)), evidence.cell_log_p.argsort()[[0, -1]]), 0.0, -np.inf)
     assert numbered.ask_anywhere(two, KnownFacts(), []).id != "address"
     given_replies = [Reply("address", "17 East Street 3")]
     assert numbered.ask_anywhere(everywhere, KnownFacts(), given_replies).id not in {"address", "street"}
@@ -151,7 +155,7 @@ def test_a_house_number_is_asked_for_where_a_word_would_tell_too_little(posterio
 
 def with_house_numbers(posterior):
     """The questions about the map if a house stood in the middle of each of its cells, numbered from 1."""
-    sights, gazetteer = posterior.nodes.sights, posterior.places.gazetteer
+    nearby_objects, gazetteer = posterior.nodes.nearby_objects, posterior.places.gazetteer
     centers_m = posterior.gallery.cells.center_m[:, :2]
     houses = [GazetteerObject((ADDRESS_KIND,), (), str(n + 1), "East Street 3") for n in range(len(centers_m))]
     builder = ObjectTableBuilder()
@@ -163,7 +167,7 @@ def with_house_numbers(posterior):
         starts=np.concatenate([gazetteer.starts, gazetteer.starts[-1] + 1 + np.arange(len(centers_m))]),
         is_area=np.concatenate([gazetteer.is_area, np.zeros(len(centers_m), bool)]),
     )
-    return Questions(sights, list(posterior.labels), posterior.nodes._palette, town, posterior.gallery.cells)
+    return Questions(nearby_objects, list(posterior.labels), posterior.nodes._palette, town, posterior.gallery.cells)
 
 
 def test_what_the_text_says_is_not_asked(posterior, questions_asked):
@@ -243,7 +247,7 @@ def test_unknown_changes_nothing_but_the_question(posterior, questions_asked):
 )
 def test_what_cannot_have_been_asked_is_refused(posterior, reply, field):
     with pytest.raises(ReplyError, match=rf"^answers\[1\]\.{field}: ") as raised:
-        posterior.questions.answered([Reply("near:bench", "yes"), reply])
+        posterior.questions.reply_evidence([Reply("near:bench", "yes"), reply])
     assert (raised.value.number, raised.value.field) == (1, field)
 
 
@@ -273,7 +277,7 @@ def test_a_refused_text_has_a_question_and_its_reply_is_an_answer(localizer, ref
 
 def test_replies_alone_look_along_a_whole_street(posterior, monkeypatch):
     """However few cells a text would be looked at in."""
-    monkeypatch.setattr(posterior_localizer, "CANDIDATES", 2)
+    monkeypatch.setattr(posterior_localizer, "CANDIDATE_CELLS", 2)
     y_m = posterior.gallery.cells.center_m[:, 1]
     on_third = posterior.frame.from_wgs84(LAT + 180 * LAT_M, LON)[1]
     [finding] = posterior.find([replace(SAYS_NOTHING, replies=(Reply("street", "East Street 3"),))])
@@ -333,7 +337,7 @@ def test_who_has_begun_to_reply_is_asked_until_the_place_is_good(localizer):
 
 def test_the_middle_of_a_cell_is_the_node_nearest_to_its_centre(posterior) -> None:
     given = (
-        posterior.nodes.sights,
+        posterior.nodes.nearby_objects,
         list(posterior.labels),
         posterior.nodes._palette,
         EMPTY_GAZETTEER,

@@ -185,7 +185,7 @@ def test_a_binding_reads_what_was_noticed(matcher):
     binding = Binding(matcher, KITTI, KITTI360_PALETTE)
     sure = torch.eye(10)[2]
     grey = torch.eye(len(COLOURS) + 1)[COLOURS.index("gray")]
-    reading = binding.reading(
+    reading = binding.bind(
         [
             ParsedHint("lamp post", 0, 9, sure, grey, 0.0, Measure(0, 3, 4.0)),
             ParsedHint("tree", 0, 4, sure, grey, 1.0, None),

@@ -3,14 +3,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from models.posterior.distribution import Located
+from models.posterior.distribution import PositionDistribution
 
 
 @pytest.fixture
-def located() -> Located:
+def located() -> PositionDistribution:
     """A tenth in each of nine places 10, 20, ... 90 m away, and a tenth elsewhere."""
     points = np.column_stack([np.arange(10.0, 91.0, 10.0), np.zeros(9)])
-    return Located(
+    return PositionDistribution(
         rows=np.array([0]), score=np.zeros(1), probability=np.array([0.9]), other=0.1, positions=np.zeros((1, 2)),
         points_m=points, points=np.arange(9), weight=np.full(9, 0.1), spacing_m=0.5, extent_m=1000.0,
     )  # fmt: skip
@@ -29,7 +29,7 @@ def test_what_is_within_a_radius_is_the_share_that_it_holds(located, metres) -> 
 
 
 def test_radii_are_as_honest_as_validation_says(located) -> None:
-    honest = replace(located, held=(0.35, 0.75))
+    honest = replace(located, calibrated_masses=(0.35, 0.75))
     assert honest.radii_m(0.5, 0.9) == pytest.approx(located.radii_m(0.35, 0.75))
     assert honest.radii_m(0.7) == pytest.approx(located.radii_m(0.55)), "between them, in proportion"
     assert replace(located, radius_scale=2.0).radii_m(0.55)[0] == pytest.approx(2 * located.radii_m(0.55)[0])

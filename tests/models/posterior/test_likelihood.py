@@ -6,9 +6,9 @@ import torch
 
 from models.citymap.colours import BASIC_PALETTE, KITTI360_PALETTE
 from models.language.parsed_hint import RELATIONS
-from models.posterior.likelihood import FAINT, HABITS, Likelihood, Reading
+from models.posterior.likelihood import HABITS, MIN_FIT, BoundHints, Likelihood
 from models.posterior.neighbours.neighbours import STEP_M
-from models.posterior.node_batch import WAYS, NodeBatch, colour_words, ranks_of, usual_statements, way_number
+from models.posterior.node_batch import OFFSET_CODES, NodeBatch, colour_words, mean_statements, offset_codes, ranks_of
 
 WORDS = len(colour_words(KITTI360_PALETTE))
 
@@ -17,7 +17,7 @@ def reading(rng, hints, labels, absent=0.0, distance=math.nan):
     def shares(size):
         return torch.from_numpy(rng.dirichlet(np.full(size, 0.3), hints).astype(np.float32))
 
-    return Reading(
+    return BoundHints(
         shares(len(RELATIONS)),
         shares(labels),
         shares(WORDS + 1),
@@ -36,9 +36,9 @@ def around(rng, nodes=5, labels=4, parts=9):
     rgb = torch.from_numpy(rng.random((parts, 3)).astype(np.float32))
     rgb[0] = math.nan
     whole = torch.from_numpy(rng.random(len(node)) < 0.8)
-    rank = ranks_of(torch.from_numpy(node), way_number(way), label[part])
+    rank = ranks_of(torch.from_numpy(node), offset_codes(way), label[part])
     looks = label, rgb, torch.arange(parts) % 2 == 0
-    return NodeBatch(torch.from_numpy(node), way_number(way), whole, rank, part, *looks, nodes), way
+    return NodeBatch(torch.from_numpy(node), offset_codes(way), whole, rank, part, *looks, nodes), way
 
 
 def place_of(model, relation, east, north, is_vague):
@@ -63,7 +63,7 @@ def place_of(model, relation, east, north, is_vague):
 
 
 def usual_of(here):
-    return usual_statements(here.label, here.rgb, torch.ones(len(here.label)), KITTI360_PALETTE)
+    return mean_statements(here.label, here.rgb, torch.ones(len(here.label)), KITTI360_PALETTE)
 
 
 @torch.no_grad()
@@ -77,7 +77,7 @@ def naive(model, said, here, way, palette):
             for n in range(len(usual))
         )
         eps.append(math.exp(float(model.background)) + math.exp(float(model.common)) * share)
-    words = model.words(here.rgb, palette)
+    words = model.colour_word_p(here.rgb, palette)
     found = []
     for m in range(here.nodes):
         rows = [r for r in range(len(here.node)) if int(here.node[r]) == m]
@@ -102,7 +102,7 @@ def naive(model, said, here, way, palette):
                     place = place_of(model, said.relation[h], east, north, here.is_vague[part])
                     place += math.exp(model.relation_slip)
                     fits = label * colour * place
-                    row.append((fits if fits > FAINT else 0.0) * weight / mass ** float(model.crowding))
+                    row.append((fits if fits > MIN_FIT else 0.0) * weight / mass ** float(model.crowding))
                 terms.append(row)
             first = [sum(t[h] for t in terms) for h in range(len(said.label))]
             power = math.exp(float(model.twice))
@@ -159,7 +159,7 @@ def test_the_order_of_hints_does_not_matter(model):
     rng = np.random.default_rng(2)
     here, _ = around(rng)
     said = reading(rng, 5, 4)
-    ranked = Reading(
+    ranked = BoundHints(
         *(column.flip(0) for column in (said.relation, said.label, said.colour, said.distance_m, said.absent))
     )
     assert torch.allclose(
@@ -171,10 +171,10 @@ def test_the_order_of_hints_does_not_matter(model):
 
 def test_the_winds_share_the_compass(model):
     one = torch.eye(len(RELATIONS))
-    said = Reading(one, torch.ones(10, 1), torch.ones(10, WORDS + 1), torch.full((10,), math.nan), torch.zeros(10))
-    place = model.places(said, model.ways())
+    said = BoundHints(one, torch.ones(10, 1), torch.ones(10, WORDS + 1), torch.full((10,), math.nan), torch.zeros(10))
+    place = model.position_fit(said, model.relation_table())
     number = {
-        name: int(way_number(torch.tensor([way], dtype=torch.int8)))
+        name: int(offset_codes(torch.tensor([way], dtype=torch.int8)))
         for name, way in {
             "north": (0, 80),
             "northeast": (57, 57),
@@ -195,9 +195,11 @@ def test_the_winds_share_the_compass(model):
 def test_the_winds_from_what_is_vague_are_softer(model):
     model.border_m.copy_(torch.tensor([-3.0, 0.0]))
     north = torch.eye(len(RELATIONS))[:1]
-    said = Reading(north, torch.ones(1, 1), torch.ones(1, WORDS + 1), torch.tensor([math.nan]), torch.zeros(1))
-    just_east, slip = way_number(torch.tensor([[42, 40]], dtype=torch.int8)), float(model.relation_slip.exp())
-    exact, vague = (float(model.places(said, table)[just_east]) - slip for table in model.ways().split(WAYS))
+    said = BoundHints(north, torch.ones(1, 1), torch.ones(1, WORDS + 1), torch.tensor([math.nan]), torch.zeros(1))
+    just_east, slip = offset_codes(torch.tensor([[42, 40]], dtype=torch.int8)), float(model.relation_slip.exp())
+    exact, vague = (
+        float(model.position_fit(said, table)[just_east]) - slip for table in model.relation_table().split(OFFSET_CODES)
+    )
     assert exact < 0.05
     assert 0.3 < vague < 0.5
 
@@ -207,7 +209,7 @@ def test_what_is_absent_is_not_near(model):
     node = torch.zeros(1, dtype=torch.long)
     label = torch.zeros(1, dtype=torch.long)
     here = NodeBatch(
-        node, way_number(way), torch.ones(1, dtype=torch.bool), ranks_of(node, way_number(way), label),
+        node, offset_codes(way), torch.ones(1, dtype=torch.bool), ranks_of(node, offset_codes(way), label),
         torch.zeros(1, dtype=torch.long), label, torch.full((1, 3), 0.4),
         torch.zeros(1, dtype=torch.bool), 2,
     )  # fmt: skip
@@ -216,7 +218,7 @@ def test_what_is_absent_is_not_near(model):
     colour = torch.zeros(1, WORDS + 1)
     colour[0, -1] = 1.0
     for absent, better in ((0.0, 0), (1.0, 1)):
-        said = Reading(relation, torch.ones(1, 1), colour, torch.tensor([math.nan]), torch.tensor([absent]))
+        said = BoundHints(relation, torch.ones(1, 1), colour, torch.tensor([math.nan]), torch.tensor([absent]))
         log_p = model(said, here, KITTI360_PALETTE, usual_of(here))
         assert int(log_p.argmax()) == better, "node 0 has the thing, node 1 has nothing"
 
@@ -235,9 +237,9 @@ def test_a_hint_is_explained_by_the_object_in_its_direction(model):
     """Of two like objects, one to the north and one nearly so, the vague one may be the northern one, too."""
     model.border_m.copy_(torch.tensor([-3.0, 0.0]))
     node, label = torch.zeros(2, dtype=torch.long), torch.zeros(2, dtype=torch.long)
-    way = way_number(torch.tensor([[40, 39], [-40, 39]], dtype=torch.int8))
+    way = offset_codes(torch.tensor([[40, 39], [-40, 39]], dtype=torch.int8))
     relation, colour = torch.eye(len(RELATIONS))[:1], torch.eye(WORDS + 1)[-1:]
-    said = Reading(relation, torch.ones(1, 1), colour, torch.tensor([math.nan]), torch.zeros(1))
+    said = BoundHints(relation, torch.ones(1, 1), colour, torch.tensor([math.nan]), torch.zeros(1))
     for vague in (0, 1):
         here = NodeBatch(
             node, way, torch.ones(2, dtype=torch.bool), ranks_of(node, way, label),
@@ -246,7 +248,7 @@ def test_a_hint_is_explained_by_the_object_in_its_direction(model):
         best, probability = model.explain(said, here, KITTI360_PALETTE, usual_of(here), model.tables())
         assert best.tolist() == [vague]
         assert 0 < float(probability) < 1
-        doubtful = Reading(relation, torch.full((1, 1), 0.1), colour, said.distance_m, said.absent)
+        doubtful = BoundHints(relation, torch.full((1, 1), 0.1), colour, said.distance_m, said.absent)
         _, less = model.explain(doubtful, here, KITTI360_PALETTE, usual_of(here), model.tables())
         assert float(less) < 0.2, "at most twice the probability of the label"
 
@@ -255,7 +257,7 @@ def test_ranks_count_what_is_nearer():
     node = torch.tensor([0, 0, 0, 0, 1])
     way = torch.tensor([[0, 2], [0, 20], [0, 40], [50, 0], [0, 30]], dtype=torch.int8)
     label = torch.tensor([1, 0, 1, 0, 0])
-    assert ranks_of(node, way_number(way), label).tolist() == [
+    assert ranks_of(node, offset_codes(way), label).tolist() == [
         [0, 0, 0, 2, 1],  # on top
         [1, 0, 0, 2, 2],
         [2, 1, 1, 2, 2],
@@ -268,7 +270,7 @@ def test_what_is_usual_in_a_map():
     label = torch.tensor([0, 0, 1, 0])
     rgb = torch.tensor(KITTI360_PALETTE.centers, dtype=torch.float32)[[0, 0, 2, 2]] / 255
     rgb[2] = math.nan
-    usual = usual_statements(label, rgb, torch.ones(len(label)), KITTI360_PALETTE)
+    usual = mean_statements(label, rgb, torch.ones(len(label)), KITTI360_PALETTE)
     words = colour_words(KITTI360_PALETTE)
     assert usual[0, words.index("dark-green")] == 0.5
     assert usual[0, words.index("gray-green")] == 0.25
@@ -278,21 +280,21 @@ def test_what_is_usual_in_a_map():
 
 def test_a_hint_that_nothing_explains_costs_less_where_it_is_usual(model):
     usual = torch.tensor([[0.3] * WORDS + [0.9], [0.0] * WORDS + [0.1]])
-    said = Reading(
+    said = BoundHints(
         torch.eye(len(RELATIONS))[:2],
         torch.eye(2),
         torch.eye(WORDS + 1)[[0, 0]],
         torch.full((2,), math.nan),
         torch.zeros(2),
     )
-    often, seldom = model.chance(said, usual)
+    often, seldom = model.background_p(said, usual)
     assert often > seldom
 
 
 def test_colours_are_named_by_their_nearest_word(model):
     centers = torch.tensor(BASIC_PALETTE.centers, dtype=torch.float32) / 255
     names = colour_words(BASIC_PALETTE)
-    found = model.words(centers, BASIC_PALETTE).argmax(dim=1)
+    found = model.colour_word_p(centers, BASIC_PALETTE).argmax(dim=1)
     assert [names[i] for i in found] == list(BASIC_PALETTE.words)
-    unknown = model.words(torch.full((1, 3), math.nan), BASIC_PALETTE)
+    unknown = model.colour_word_p(torch.full((1, 3), math.nan), BASIC_PALETTE)
     assert len(set(unknown[0].tolist())) == 1

@@ -1,44 +1,45 @@
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
 import torch
 
 from models.posterior.locate import best_rows, locate
-from models.posterior.posterior import Field
-from models.posterior.questions import Answered
+from models.posterior.posterior import Field, PositionEvidence
+from models.posterior.questions import ReplyEvidence
 
-NOTHING: Any = None
-SOMETHING: Any = object()
+NOTHING = PositionEvidence()
+SOMETHING = PositionEvidence(hints=cast(Any, object()))
 
 
 def posterior_of(nodes_m: np.ndarray, log_p: np.ndarray, starts: list[int], coarse: list[int] | None = None) -> Any:
     """A posterior that is given: [M] log p at nodes [M, 2], of which cell n owns starts[n] to starts[n + 1]."""
     owner = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
-    asked: list[dict[int, int]] = []  # as how coarse a grid has nodes of which cell
+    grids: list[dict[int, int]] = []  # coarsening of each cell, call by call
     is_coarse = np.isin(np.arange(len(log_p)), np.arange(len(log_p)) if coarse is None else coarse)
 
-    def field(_reading, cells, log_prior=None, inside=None, told=None, answered=None, times=None, between=False):
-        assert told is None
-        if times is not None:
-            asked.append(dict(zip(cells.tolist(), times.tolist(), strict=True)))
-            inside = is_coarse != between
-        nodes = np.concatenate([np.flatnonzero((owner == c) & (inside is None or inside)) for c in cells])
-        prior = 0.0 if log_prior is None else log_prior(nodes_m[nodes])
-        prior = prior if answered is None else prior + answered.at(nodes)
+    def field(evidence, cells, coarsening=None, *, is_rest=False):
+        assert evidence.places is None
+        chosen = np.ones(len(log_p), np.bool_)
+        if coarsening is not None:
+            grids.append(dict(zip(cells.tolist(), coarsening.tolist(), strict=True)))
+            chosen = is_coarse != is_rest
+        nodes = np.concatenate([np.flatnonzero((owner == c) & chosen) for c in cells])
+        prior = 0.0 if evidence.log_prior is None else evidence.log_prior(nodes_m[nodes])
+        prior = prior if evidence.replies is None else prior + evidence.replies.log_p(nodes)
         order = np.argsort(cells)
         number = order[np.searchsorted(cells, owner[nodes], sorter=order)]
         return Field(cells, nodes, number, log_p[nodes] + prior)
 
     center = [nodes_m[owner == c].mean(axis=0) if (owner == c).any() else (0, 0) for c in range(len(starts) - 1)]
     return SimpleNamespace(
-        likelihood=SimpleNamespace(temper=torch.zeros(())), field=field, asked=asked,
+        likelihood=SimpleNamespace(temper=torch.zeros(())), field=field, grids=grids,
         cells=SimpleNamespace(center_m=np.column_stack([center, np.zeros(len(center))]), size_m=30.0), extent_m=1e4,
         surroundings=SimpleNamespace(cell_starts=np.array(starts), positions_m=lambda nodes: nodes_m[nodes]),
         # As they stand, so that cells are looked at in this order.
         cell_scores=lambda _reading, _some=None: -np.arange(len(starts) - 1.0),
-        without_nodes=np.flatnonzero(np.diff(starts) == 0),
+        cells_without_nodes=np.flatnonzero(np.diff(starts) == 0),
     )  # fmt: skip
 
 
@@ -59,7 +60,9 @@ def test_near_distances_are_right_on_a_map_of_many_kilometres() -> None:
 def test_a_cell_that_a_prior_rules_out_has_no_mass_and_spoils_no_other() -> None:
     nodes_m = np.array([[0.0, 0], [1, 0], [30, 0], [31, 0], [60, 0]])
     posterior = posterior_of(nodes_m, np.array([0.0, 0.0, 0.0, 0.0, -1.0]), [0, 2, 4, 4, 5])
-    found = locate(posterior, NOTHING, lambda at: np.where(np.isin(at[:, 0], (30, 31)), -np.inf, 0.0))
+    found = locate(
+        posterior, PositionEvidence(log_prior=lambda at: np.where(np.isin(at[:, 0], (30, 31)), -np.inf, 0.0))
+    )
     assert found is not None
     mass = dict(zip(found.rows.tolist(), found.score.tolist(), strict=True))
     assert mass == pytest.approx({0: np.log(2), 1: -np.inf, 3: -1.0})
@@ -79,7 +82,7 @@ def test_a_cell_that_seemed_far_behind_and_is_not_is_looked_at_closely() -> None
     posterior = posterior_of(nodes_m, np.array([0.0, 0.0, 0.0, 0.0, -30.0]), [0, 2, 4, 5], coarse=[0, 2, 4])
     posterior.cell_scores = lambda _reading, _some: np.array([0.0, -30.0, -5.0])
     found = locate(posterior, SOMETHING)
-    assert posterior.asked == [{0: 2, 2: 2, 1: 4}, {0: 2, 1: 4}]
+    assert posterior.grids == [{0: 2, 2: 2, 1: 4}, {0: 2, 1: 4}]
     assert found is not None
     assert dict(zip(found.rows.tolist(), found.score.tolist(), strict=True)) == pytest.approx(
         {0: np.log(2), 1: np.log(2), 2: -30.0}
@@ -90,8 +93,9 @@ def test_answers_bring_in_cells_that_were_not_listed() -> None:
     nodes_m = np.array([[0.0, 0], [30, 0], [60, 0], [90, 0]])
     posterior = posterior_of(nodes_m, np.zeros(4), [0, 1, 2, 3, 4])
     before = locate(posterior, NOTHING, candidates=2)
-    told = np.array([-9.0, -9.0, -9.0, 0.0])
-    after = locate(posterior, NOTHING, candidates=2, answered=Answered(told, lambda nodes: told[nodes]))
+    log_p = np.array([-9.0, -9.0, -9.0, 0.0])
+    replies = ReplyEvidence(log_p, lambda nodes: log_p[nodes])
+    after = locate(posterior, PositionEvidence(replies=replies), candidates=2)
     assert before is not None
     assert after is not None
     assert 3 not in before.rows

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from models.posterior.nearby_objects import FAR_M, NEAR_M, Sights
+from models.posterior.nearby_objects import FAR_M, NEAR_M, NearbyObjects
 from models.posterior.neighbours.map_objects import MapObjects
 from models.posterior.neighbours.neighbours import STEP_M
 from models.posterior.neighbours.scan_index import ScanNeighbourIndex
@@ -17,19 +17,21 @@ def sights(*nodes):
     rows = [row for node in nodes for row in node]
     way = np.array([(-east / STEP_M, -north / STEP_M) for _, east, north in rows]).reshape(-1, 2)
     surroundings = ScanNeighbourIndex(
-        things=THINGS,
+        objects=THINGS,
         cell_starts=np.array([0, len(nodes)]),
         nodes_m=np.zeros((len(nodes), 2), np.float32),
         starts=np.concatenate([[0], np.cumsum([len(node) for node in nodes])]),
         part=np.array([part for part, *_ in rows], np.int32),
-        way=np.rint(way).astype(np.int8),
+        offset=np.rint(way).astype(np.int8),
         whole=np.ones(len(rows), np.bool_),
     )
-    return Sights(surroundings, LABEL, WORDS.__getitem__)
+    return NearbyObjects(surroundings, LABEL, WORDS.__getitem__)
 
 
 def test_near_is_what_is_near():
-    seen = sights([(0, 2.0, 0.0)], [(0, NEAR_M, 0.0)], [(0, 14.0, 0.0)], [(2, 1.0, 0.0)], []).seen(np.arange(5), [TREE])
+    seen = sights([(0, 2.0, 0.0)], [(0, NEAR_M, 0.0)], [(0, 14.0, 0.0)], [(2, 1.0, 0.0)], []).around(
+        np.arange(5), [TREE]
+    )
     yes, no = seen.is_near(TREE).T
     assert yes == pytest.approx([1.0, 0.5, 0.1, 0.0, 0.0], abs=0.05)
     assert yes + no == pytest.approx(np.ones(5))
@@ -38,34 +40,34 @@ def test_near_is_what_is_near():
 
 @pytest.mark.parametrize(("east", "north", "quarter"), [(0, 5, 0), (5, 0, 1), (0, -5, 2), (-5, 0, 3), (4, 6, 0)])
 def test_the_quarter_is_where_the_nearest_is_seen_from_the_node(east, north, quarter):
-    seen = sights([(0, east, north), (1, -2 * north, 2 * east + 1), (2, 1.0, 1.0)]).seen(np.array([0]), [TREE])
+    seen = sights([(0, east, north), (1, -2 * north, 2 * east + 1), (2, 1.0, 1.0)]).around(np.array([0]), [TREE])
     [chance] = seen.quarter(TREE)
     assert chance.argmax() == quarter
     assert chance.sum() == pytest.approx(1.0)
 
 
 def test_between_two_winds_and_two_things_nobody_knows():
-    seen = sights([(0, 5.0, 5.0)], [(0, 0.0, 6.0), (1, 0.0, -6.0)]).seen(np.array([0, 1]), [TREE])
+    seen = sights([(0, 5.0, 5.0)], [(0, 0.0, 6.0), (1, 0.0, -6.0)]).around(np.array([0, 1]), [TREE])
     chance = seen.quarter(TREE)
     assert chance[0, :4] == pytest.approx([0.5, 0.5, 0.0, 0.0], abs=0.02)
     assert chance[1, :4] == pytest.approx([0.5, 0.0, 0.5, 0.0], abs=0.02)
 
 
 def test_where_none_is_none_is_said_and_no_colour_is_likelier():
-    seen = sights([], [(0, FAR_M - 0.5, 0.0)]).seen(np.array([0, 1]), [TREE])
+    seen = sights([], [(0, FAR_M - 0.5, 0.0)]).around(np.array([0, 1]), [TREE])
     assert seen.quarter(TREE)[0] == pytest.approx([0, 0, 0, 0, 1])
     assert 0.3 < seen.quarter(TREE)[1, 4] < 0.6
     assert seen.colour(TREE, np.array([1]))[0] == pytest.approx([0.5, 0.5])
 
 
 def test_the_colour_is_that_of_the_nearest():
-    seen = sights([(1, 1.0, 0.0), (0, 12.0, 0.0)]).seen(np.array([0]), [TREE])
+    seen = sights([(1, 1.0, 0.0), (0, 12.0, 0.0)]).around(np.array([0]), [TREE])
     assert seen.colour(TREE, np.array([1]))[0] == pytest.approx([0.8, 0.2], abs=0.01)
     assert seen.colours(TREE, np.array([1.0])) == pytest.approx([0.2, 0.8], abs=0.01)
 
 
 def test_classes_that_are_asked_for_alone_are_looked_at():
     some = sights([(0, 3.0, 0.0), (2, 1.0, 0.0)], [(2, 0.0, 2.0)])
-    both, lamps = some.seen(np.array([1, 0]), [TREE, LAMP]), some.seen(np.array([1, 0]), [LAMP])
+    both, lamps = some.around(np.array([1, 0]), [TREE, LAMP]), some.around(np.array([1, 0]), [LAMP])
     assert (both.quarter(LAMP) == lamps.quarter(LAMP)).all()
     assert lamps.quarter(LAMP).argmax(axis=1).tolist() == [0, 1]

@@ -8,11 +8,11 @@ import torch
 
 from models.language.parsed_hint import RELATIONS
 from models.posterior import locate as locate_module
-from models.posterior.area_filter import Inside
-from models.posterior.likelihood import Likelihood, Reading
-from models.posterior.locate import MEAN_M, locate
+from models.posterior.area_filter import AreaFilter
+from models.posterior.likelihood import BoundHints, Likelihood
+from models.posterior.locate import MEAN_RADIUS_M, locate
 from models.posterior.node_batch import colour_words
-from models.posterior.posterior import HintPosterior
+from models.posterior.posterior import HintPosterior, PositionEvidence
 from models.sources.source import VALIDATION_SEED
 from models.training.posterior.fit_likelihood import SiteTexts, fit_likelihood, negative_log_density, nodes_of_cells
 from models.training.posterior.training_sites import TrainingSite
@@ -22,13 +22,13 @@ from models.training.posterior.training_sites import TrainingSite
 class Town:
     site: TrainingSite
     posterior: HintPosterior
-    readings: list[Reading]
+    readings: list[BoundHints]
 
     def texts(self) -> SiteTexts:
         return SiteTexts(self.site, np.arange(len(self.readings)), self.readings)
 
 
-def exact(hints: Any, labels: tuple[str, ...], words: list[str]) -> Reading:
+def exact(hints: Any, labels: tuple[str, ...], words: list[str]) -> BoundHints:
     """A reading that knows what was said."""
     relation, label = torch.zeros(len(hints), len(RELATIONS)), torch.zeros(len(hints), len(labels))
     colour = torch.zeros(len(hints), len(words) + 1)
@@ -36,7 +36,7 @@ def exact(hints: Any, labels: tuple[str, ...], words: list[str]) -> Reading:
         relation[n, RELATIONS.index(hint.direction)] = 1.0
         label[n, labels.index(hint.label)] = 1.0
         colour[n, words.index(hint.colour) if hint.colour else -1] = 1.0
-    return Reading(relation, label, colour, torch.full((len(hints),), math.nan), torch.zeros(len(hints)))
+    return BoundHints(relation, label, colour, torch.full((len(hints),), math.nan), torch.zeros(len(hints)))
 
 
 @pytest.fixture(scope="module")
@@ -60,19 +60,19 @@ def all_nodes_m(town):
 def test_the_field_is_the_likelihood_of_its_nodes(town):
     cells = np.array([3, 40, 11])
     for reading in town.readings[:3]:
-        field = town.posterior.field(reading, cells)
+        field = town.posterior.field(PositionEvidence(reading), cells)
         nodes, around = nodes_of_cells(town.site, cells)
         assert (field.nodes == nodes).all()
         with torch.no_grad():
-            direct = town.posterior.likelihood(reading, around, town.site.palette, town.posterior.usual)
+            direct = town.posterior.likelihood(reading, around, town.site.palette, town.posterior.mean_statements)
         assert np.allclose(field.log_p, direct.numpy(), atol=1e-3)
 
 
 def test_the_mass_of_a_likely_cell_is_that_of_all_its_nodes(town):
     for reading in town.readings[:5]:
-        found = locate(town.posterior, reading)
+        found = locate(town.posterior, PositionEvidence(reading))
         likely = int((found.score > found.score[0] - 5).sum())
-        field = town.posterior.field(reading, found.rows[:likely])
+        field = town.posterior.field(PositionEvidence(reading), found.rows[:likely])
         mass = [np.logaddexp.reduce(field.log_p[field.cell == n]) for n in range(likely)]
         assert np.allclose(found.score[:likely], mass, atol=1e-3)
         assert np.isin(field.nodes, found.points).all()
@@ -82,7 +82,7 @@ def test_the_mass_of_a_likely_cell_is_that_of_all_its_nodes(town):
 def test_descriptions_are_found_where_they_were_said(town):
     hits, near, candidates = [], [], []
     for q, reading in enumerate(town.readings[:60]):
-        found = locate(town.posterior, reading)
+        found = locate(town.posterior, PositionEvidence(reading))
         hits.append(found.rows[0] == town.site.truth[q])
         near.append(np.linalg.norm(found.positions[0] - town.site.positions_m[q]) <= 5)
         scores = town.posterior.cell_scores(reading)
@@ -94,7 +94,7 @@ def test_descriptions_are_found_where_they_were_said(town):
 
 def test_probabilities_add_up_and_radii_are_in_order(town):
     for reading in town.readings[:20]:
-        found = locate(town.posterior, reading, candidates=30)
+        found = locate(town.posterior, PositionEvidence(reading), candidates=30)
         assert found.probability.sum() + found.other == pytest.approx(1.0)
         assert found.weight.sum() + found.other == pytest.approx(1.0)
         assert (np.diff(found.score) <= 1e-12).all()
@@ -107,8 +107,8 @@ def test_probabilities_add_up_and_radii_are_in_order(town):
 def test_cells_found_in_another_way_count_once(town):
     cells = np.arange(len(town.posterior.cells))
     for reading in town.readings[:10]:
-        some, whole = (locate(town.posterior, reading, candidates=n) for n in (20, len(cells)))
-        joined = locate(town.posterior, reading, candidates=20, further=cells)
+        some, whole = (locate(town.posterior, PositionEvidence(reading), candidates=n) for n in (20, len(cells)))
+        joined = locate(town.posterior, PositionEvidence(reading), candidates=20, extra_cells=cells)
         assert some.other > 0
         assert joined.other == whole.other == 0
         assert joined.rows.tolist() == whole.rows.tolist()
@@ -119,25 +119,26 @@ def test_cells_found_in_another_way_count_once(town):
 def test_each_candidate_has_a_position_of_its_own(town):
     surroundings = town.posterior.surroundings
     for reading in town.readings[:20]:
-        found = locate(town.posterior, reading)
+        found = locate(town.posterior, PositionEvidence(reading))
         for row, position in zip(found.rows[1:], found.positions[1:], strict=True):
             own = surroundings.positions_m(np.arange(surroundings.cell_starts[row], surroundings.cell_starts[row + 1]))
-            assert np.linalg.norm(own - position, axis=1).min() < 2 * MEAN_M
+            assert np.linalg.norm(own - position, axis=1).min() < 2 * MEAN_RADIUS_M
 
 
 def test_a_prior_may_rule_places_out(town):
     east = np.median(all_nodes_m(town)[:, 0])
-    found = locate(
-        town.posterior, town.readings[0], lambda positions_m: np.where(positions_m[:, 0] > east, 0.0, -np.inf)
+    prior = PositionEvidence(
+        town.readings[0], log_prior=lambda positions_m: np.where(positions_m[:, 0] > east, 0.0, -np.inf)
     )
+    found = locate(town.posterior, prior)
     assert found.positions[0, 0] > east
     assert found.probability.sum() + found.other == pytest.approx(1.0)
 
 
 def test_cells_far_behind_may_be_looked_at_roughly(town, monkeypatch):
-    rough = [locate(town.posterior, reading) for reading in town.readings[:30]]
-    monkeypatch.setattr(locate_module, "BEHIND", np.inf)
-    exact = [locate(town.posterior, reading) for reading in town.readings[:30]]
+    rough = [locate(town.posterior, PositionEvidence(reading)) for reading in town.readings[:30]]
+    monkeypatch.setattr(locate_module, "MAX_GAP_NATS", np.inf)
+    exact = [locate(town.posterior, PositionEvidence(reading)) for reading in town.readings[:30]]
     assert any(len(a.points) < len(b.points) for a, b in zip(rough, exact, strict=True)), "some cells are left rough"
     for a, b in zip(rough, exact, strict=True):
         assert a.rows[0] == b.rows[0]
@@ -147,8 +148,8 @@ def test_cells_far_behind_may_be_looked_at_roughly(town, monkeypatch):
 
 def test_one_hint_leaves_much_open(town):
     whole = town.readings[0]
-    one = Reading(whole.relation[:1], whole.label[:1], whole.colour[:1], whole.distance_m[:1], whole.absent[:1])
-    wide, narrow = (locate(town.posterior, reading) for reading in (one, whole))
+    one = BoundHints(whole.relation[:1], whole.label[:1], whole.colour[:1], whole.distance_m[:1], whole.absent[:1])
+    wide, narrow = (locate(town.posterior, PositionEvidence(reading)) for reading in (one, whole))
     assert wide.probability[0] < narrow.probability[0]
     assert wide.other > narrow.other
     assert wide.radii_m(0.9) > narrow.radii_m(0.9)
@@ -161,14 +162,14 @@ def test_a_filter_is_exact(town):
         held = np.abs(nodes_m - truth).max(axis=1) <= 20.0
         cells = np.repeat(np.arange(len(town.site.cells)), np.diff(town.site.surroundings.cell_starts))[held]
         has_one = np.bincount(cells, minlength=len(town.site.cells)) > 0
-        inside = Inside(has_one, lambda points_m, truth=truth: np.abs(points_m - truth).max(axis=1) <= 20.0)
-        found = locate(town.posterior, town.readings[q], inside=inside, candidates=10)
+        area = AreaFilter(has_one, lambda points_m, truth=truth: np.abs(points_m - truth).max(axis=1) <= 20.0)
+        found = locate(town.posterior, PositionEvidence(town.readings[q], area=area), candidates=10)
         assert (np.abs(found.points_m - truth).max(axis=1) <= 20.0).all()
-        every = locate(town.posterior, town.readings[q], inside=inside, candidates=10_000)
+        every = locate(town.posterior, PositionEvidence(town.readings[q], area=area), candidates=10_000)
         assert found.rows[0] == every.rows[0]
         assert set(every.rows.tolist()) == set(cells.tolist()), "nothing inside is lost"
-    nowhere = Inside(np.zeros(len(town.site.cells), np.bool_), lambda points_m: np.zeros(len(points_m), np.bool_))
-    assert locate(town.posterior, town.readings[0], inside=nowhere) is None
+    nowhere = AreaFilter(np.zeros(len(town.site.cells), np.bool_), lambda points_m: np.zeros(len(points_m), np.bool_))
+    assert locate(town.posterior, PositionEvidence(town.readings[0], area=nowhere)) is None
 
 
 def test_a_prior_is_multiplied_in(town):
@@ -178,9 +179,11 @@ def test_a_prior_is_multiplied_in(town):
         return -((positions_m - center) ** 2).sum(axis=1) / (2 * 6.0**2)
 
     cells, reading = np.arange(len(town.site.cells)), town.readings[5]
-    plain, biased = (town.posterior.field(reading, cells, prior) for prior in (None, log_prior))
+    plain, biased = (
+        town.posterior.field(PositionEvidence(reading, log_prior=prior), cells) for prior in (None, log_prior)
+    )
     assert np.allclose(biased.log_p - plain.log_p, log_prior(town.posterior.surroundings.positions_m(plain.nodes)))
-    found = locate(town.posterior, town.readings[5], log_prior)
+    found = locate(town.posterior, PositionEvidence(town.readings[5], log_prior=log_prior))
     assert np.linalg.norm(found.positions[0] - center) < 20.0
 
 
@@ -191,7 +194,7 @@ def test_the_instance_that_was_meant_explains_a_hint(town, city, cells):
         node = int(np.linalg.norm(all_nodes_m(town) - town.site.positions_m[q], axis=1).argmin())
         for hint, found in zip(town.site.hints[q], town.posterior.explain(town.readings[q], node), strict=True):
             total += 1
-            meant = found.part >= 0 and town.site.surroundings.things.instance[found.part] == number[hint.instance_id]
+            meant = found.part >= 0 and town.site.surroundings.objects.instance[found.part] == number[hint.instance_id]
             right += meant and found.probability > 0.5
     assert right / total > 0.7, "things alike stand side by side in this town"
 
@@ -216,7 +219,7 @@ def test_fitting_makes_the_truth_likelier(town):
         with torch.no_grad():
             return np.mean(
                 [
-                    float(negative_log_density(likelihood, texts, 4 * n, some, town.posterior.usual))
+                    float(negative_log_density(likelihood, texts, 4 * n, some, town.posterior.mean_statements))
                     for n, some in enumerate(asked)
                 ]
             )

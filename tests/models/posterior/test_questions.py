@@ -3,11 +3,11 @@ import pytest
 from scipy.sparse import csr_array
 
 from models.posterior.questions import (
-    WRONG,
+    WRONG_REPLY_SHARE,
     entropy,
     expected_entropy,
     expected_entropy_of_names,
-    said_with_errors,
+    name_with_errors,
     with_errors,
 )
 
@@ -48,7 +48,7 @@ def test_errors_are_shared_by_the_other_answers():
     true = np.array([[1.0, 0.0, 0.0], [0.5, 0.5, 0.0]])
     chance = with_errors(true)
     assert chance.sum(axis=1) == pytest.approx([1.0, 1.0])
-    assert chance[0] == pytest.approx([1 - WRONG, WRONG / 2, WRONG / 2])
+    assert chance[0] == pytest.approx([1 - WRONG_REPLY_SHARE, WRONG_REPLY_SHARE / 2, WRONG_REPLY_SHARE / 2])
 
 
 @pytest.mark.parametrize(("names", "some"), [(30, 1.0), (30, 0.4), (2, 0.5), (500, 0.02)])
@@ -61,7 +61,7 @@ def test_what_a_name_leaves_is_that_of_all_names(names, some):
     true = rng.random((20, names)) * (rng.random((20, names)) < some)
     true[5:8] = 0.0  # nothing to say there
     true /= np.maximum(1.0, true.sum(axis=1, keepdims=True) / rng.uniform(0.5, 1.0, (20, 1)))
-    chance = said_with_errors(true, names)
+    chance = name_with_errors(true, names)
     nothing = (mass * (1 - chance.sum(axis=1))).sum()
     slow = slow_expected_entropy(mass, chance) + nothing * entropy(mass)
     assert expected_entropy_of_names(mass, csr_array(true), names) == pytest.approx(slow)
@@ -69,5 +69,5 @@ def test_what_a_name_leaves_is_that_of_all_names(names, some):
 
 def test_a_name_is_said_in_error_as_often_as_another_answer():
     true = np.eye(7)[:, :3]
-    assert said_with_errors(true, 7) == pytest.approx(with_errors(np.eye(7))[:, :3])
-    assert said_with_errors(true[:, :2].sum(axis=1), 7, 2) == pytest.approx(with_errors(np.eye(7))[:, :2].sum(axis=1))
+    assert name_with_errors(true, 7) == pytest.approx(with_errors(np.eye(7))[:, :3])
+    assert name_with_errors(true[:, :2].sum(axis=1), 7, 2) == pytest.approx(with_errors(np.eye(7))[:, :2].sum(axis=1))

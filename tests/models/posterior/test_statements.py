@@ -5,24 +5,24 @@ from scipy.sparse import csc_array
 
 from models.errors import IndexBroken
 from models.posterior import statements as statements_module
-from models.posterior.likelihood import Likelihood, Reading
+from models.posterior.likelihood import BoundHints, Likelihood
 from models.posterior.neighbours.neighbour_index import build_neighbour_index
 from models.posterior.node_batch import NodeBatch
-from models.posterior.statements import _SECTOR_OF_RELATION, FILE, FLOOR, SECTORS, Statements
+from models.posterior.statements import _SECTOR_OF_RELATION, FILE, MIN_HINT_SHARE, SECTORS, Statements
 
 
 @pytest.fixture(scope="module")
 def given(source):
     """What statements are made of: surroundings, labels, colours and the words for them."""
     surroundings = build_neighbour_index(source.geometry(), source.data.cells)
-    rgb, likelihood = torch.from_numpy(surroundings.things.rgb), Likelihood()
-    label = torch.from_numpy(surroundings.things.labels(source.data.gallery)[1])
-    return likelihood, surroundings, label, rgb, likelihood.words(rgb, source.data.palette)
+    rgb, likelihood = torch.from_numpy(surroundings.objects.rgb), Likelihood()
+    label = torch.from_numpy(surroundings.objects.labels(source.data.gallery)[1])
+    return likelihood, surroundings, label, rgb, likelihood.colour_word_p(rgb, source.data.palette)
 
 
 @pytest.fixture(scope="module")
 def statements(given):
-    return Statements.of(*given)
+    return Statements.from_gallery(*given)
 
 
 def _holds(statements: Statements) -> csc_array:
@@ -38,11 +38,11 @@ def test_a_statement_holds_in_a_cell_as_far_as_what_it_says_is_told_of_there(giv
         nodes = np.arange(surroundings.cell_starts[cell], surroundings.cell_starts[cell + 1])
         around = surroundings.around(nodes)
         batch = NodeBatch.from_neighbours(
-            around, len(nodes), label, rgb, torch.from_numpy(surroundings.things.is_vague)
+            around, len(nodes), label, rgb, torch.from_numpy(surroundings.objects.is_vague)
         )
-        share = likelihood.share_of(batch, likelihood.log_pi()).mean(dim=1)
+        share = likelihood.mention_share(batch, likelihood.log_pi()).mean(dim=1)
         naive = {}
-        for part, (east, north), p in zip(around.part, around.way_m, share.tolist(), strict=True):
+        for part, (east, north), p in zip(around.part, around.offset_m, share.tolist(), strict=True):
             word = statements.words if rgb[part].isnan().any() else int(words[part].argmax())
             sector = 8 if np.hypot(east, north) < 1.5 else round(float(np.degrees(np.arctan2(east, north))) / 45) % 8
             key = (int(label[part]) * (statements.words + 1) + word) * SECTORS + sector
@@ -52,16 +52,16 @@ def test_a_statement_holds_in_a_cell_as_far_as_what_it_says_is_told_of_there(giv
         assert row[row > 0] == pytest.approx([naive[int(n)] for n in statements.number[row > 0]], rel=1e-3)
 
 
-@pytest.mark.parametrize("at_once", [10**6, 7])
-def test_scores_are_those_of_a_naive_sum(statements, at_once, monkeypatch) -> None:
-    monkeypatch.setattr(statements_module, "AT_ONCE", at_once)
+@pytest.mark.parametrize("cells_per_slice", [10**6, 7])
+def test_scores_are_those_of_a_naive_sum(statements, cells_per_slice, monkeypatch) -> None:
+    monkeypatch.setattr(statements_module, "CELLS_PER_SLICE", cells_per_slice)
     rng, labels, words = np.random.default_rng(0), int(statements.label.max()) + 1, statements.words
     relation, label, colour = (torch.from_numpy(rng.dirichlet([0.3] * n, 3)).float() for n in (10, labels, words + 1))
     absent = torch.tensor([0.0, 0.2, 1.0])
-    reading = Reading(relation, label, colour, torch.full((3,), torch.nan), absent)
+    reading = BoundHints(relation, label, colour, torch.full((3,), torch.nan), absent)
     found = statements.scores(reading)
     of_sector = relation @ _SECTOR_OF_RELATION
-    holds, naive = _holds(statements).toarray(), np.full((holds_rows := statements.cells, 3), FLOOR)
+    holds, naive = _holds(statements).toarray(), np.full((holds_rows := statements.cells, 3), MIN_HINT_SHARE)
     for n, (of, word, sector) in enumerate(zip(statements.label, statements.word, statements.sector, strict=True)):
         said = 0.3 * torch.ones(3) if word == words else colour[:, word] + colour[:, words]
         naive += holds[:, [n]] * (label[:, of] * said * of_sector[:, sector]).numpy()
@@ -77,7 +77,7 @@ def test_scores_are_those_of_a_naive_sum(statements, at_once, monkeypatch) -> No
 
 def test_several_processes_make_what_one_makes(given, statements, monkeypatch) -> None:
     monkeypatch.setattr(statements_module, "CELLS_PER_BLOCK", 20)
-    again = Statements.of(*given)
+    again = Statements.from_gallery(*given)
     assert (again.number == statements.number).all()
     assert (_holds(again) != _holds(statements)).nnz == 0
 

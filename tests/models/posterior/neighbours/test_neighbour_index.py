@@ -29,19 +29,19 @@ def around(source, cells):
 
 def test_nodes_are_the_same_however_many_columns_are_looked_at(around, monkeypatch):
     cells, bodies, expected = around
-    monkeypatch.setattr(nodes_module, "COLUMNS", 7)
+    monkeypatch.setattr(nodes_module, "COLUMNS_PER_SLICE", 7)
     found = build_neighbour_index(bodies, cells)
     assert np.array_equal(found.offset, expected.offset)
     assert np.array_equal(found.cell_starts, expected.cell_starts)
 
 
 def test_ground_of_a_map_is_vague_and_a_scan_is_told_of_by_its_points(source, around, scanned) -> None:
-    things = around[2].things
+    things = around[2].objects
     labels = np.array(source.data.gallery.labels)[things.instance]
     assert things.is_vague[labels == "road"].all()
     assert not things.is_vague[labels == "building"].any()
-    assert scanned[2].things.is_flat.any()
-    assert not scanned[2].things.is_vague.any()
+    assert scanned[2].objects.is_flat.any()
+    assert not scanned[2].objects.is_vague.any()
 
 
 def nodes_of(s):
@@ -90,7 +90,7 @@ def test_ways_are_those_of_a_naive_search(scanned, scan) -> None:
         rows = slice(s.starts[node], s.starts[node + 1])
         instances = bodies.part_instances[s.part[rows]].tolist()
         assert sorted(instances) == sorted(naive)
-        for i, way, whole in zip(instances, s.way[rows], s.whole[rows], strict=True):
+        for i, way, whole in zip(instances, s.offset[rows], s.whole[rows], strict=True):
             assert np.hypot(*(way * STEP_M)) == pytest.approx(naive[i][0], abs=STEP_M)
             assert whole == naive[i][1]
 
@@ -101,7 +101,7 @@ def test_rows_are_sorted_and_parts_are_of_the_owner_where_it_has_them(scanned) -
     cube = cells.parts.cube
     for node in np.random.default_rng(1).choice(len(s.nodes_m), 20, replace=False):
         rows = np.arange(s.starts[node], s.starts[node + 1])
-        radius = (s.way[rows].astype(int) ** 2).sum(axis=1)
+        radius = (s.offset[rows].astype(int) ** 2).sum(axis=1)
         key = list(zip((~s.whole[rows]).tolist(), radius.tolist(), strict=True))
         assert key == sorted(key)
         in_owner = set(bodies.part_instances[cube == owner[node]].tolist())
@@ -113,14 +113,14 @@ def test_rows_are_sorted_and_parts_are_of_the_owner_where_it_has_them(scanned) -
 def test_taking_cells_keeps_their_nodes_and_what_they_show(kind, request) -> None:
     cells, s = request.getfixturevalue(kind)[::2]
     chosen = np.array([7, 2, 30])
-    some = s.take(chosen, count_parts(s.things, cells, chosen))
+    some = s.take(chosen, count_parts(s.objects, cells, chosen))
     of_chosen = np.concatenate([np.arange(s.cell_starts[c], s.cell_starts[c + 1]) for c in chosen])
     assert (nodes_of(some) == s.positions_m(of_chosen)).all()
     assert np.diff(some.cell_starts).tolist() == np.diff(s.cell_starts)[chosen].tolist()
     before, after = s.around(of_chosen), some.around(np.arange(len(of_chosen)))
-    kept = some.things.parts[before.part] > 0
+    kept = some.objects.parts[before.part] > 0
     assert 0 < kept.sum() < len(kept)
-    for name in ("node", "part", "way", "whole"):
+    for name in ("node", "part", "offset", "whole"):
         assert (getattr(before, name)[kept] == getattr(after, name)).all()
 
 
@@ -132,10 +132,10 @@ def test_saved_surroundings_come_back_and_broken_ones_are_named(kind, request, t
     nodes = np.arange(s.cell_starts[-1])
     assert (again.cell_starts == s.cell_starts).all()
     assert (nodes_of(again) == nodes_of(s)).all()
-    for name in ("node", "part", "way", "whole"):
+    for name in ("node", "part", "offset", "whole"):
         assert (getattr(again.around(nodes), name) == getattr(s.around(nodes), name)).all()
     for name in ("instance", "rgb", "parts", "is_flat"):
-        assert np.array_equal(getattr(again.things, name), getattr(s.things, name), equal_nan=name == "rgb")
+        assert np.array_equal(getattr(again.objects, name), getattr(s.objects, name), equal_nan=name == "rgb")
     [file] = tmp_path.iterdir()
     assert 0.9 * file.stat().st_size < s.num_bytes < file.stat().st_size
     file.write_bytes(b"no")
@@ -154,7 +154,7 @@ def test_what_is_around_nodes_does_not_depend_on_which_are_asked_for(around) -> 
     some = s.around(chosen)
     for n, node in enumerate(chosen):
         ours, theirs = some.node == n, every.node == node
-        for name in ("part", "way"):
+        for name in ("part", "offset"):
             assert (getattr(some, name)[ours] == getattr(every, name)[theirs]).all()
     nothing = s.around(chosen[:0])
     assert len(nothing.node) == 0

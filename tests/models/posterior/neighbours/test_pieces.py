@@ -50,7 +50,7 @@ def test_both_sidewalks_are_known_between_them() -> None:
     _, source = street()
     around = ScanNeighbourIndex.build(source.geometry(), source.data.cells)
     rows = rows_at(around, source, 0.0, 1.5)
-    way = around.way[rows] * STEP_M
+    way = around.offset[rows] * STEP_M
     assert way[:, 1] == pytest.approx([1.5 - ROAD_M / 2, 1.5 + ROAD_M / 2 + 0.25], abs=2 * STEP_M)
     assert np.abs(way[:, 0]) == pytest.approx([0, 0], abs=0.25 + STEP_M)
     assert around.whole[rows].all()
@@ -85,4 +85,4 @@ def test_pieces_far_apart_and_instances_in_one_piece_are_as_they_were() -> None:
         rows = rows_at(around, source, x, y)
         xyz = city.instances[0].points_m[:, :2]
         away = np.linalg.norm(xyz - around.nodes_m[node], axis=1).min()
-        assert np.hypot(*(around.way[rows[0]] * STEP_M)) == pytest.approx(away, abs=STEP_M)
+        assert np.hypot(*(around.offset[rows[0]] * STEP_M)) == pytest.approx(away, abs=STEP_M)

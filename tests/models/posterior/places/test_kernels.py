@@ -34,12 +34,12 @@ def test_across_is_a_street_away(kernels) -> None:
     assert (fits[round(street) :].diff() <= 1e-7).all()
 
 
-@pytest.mark.parametrize("said_m", [3.0, 50.0, 220.0])
-def test_a_distance_that_was_said_is_likeliest(kernels, said_m) -> None:
+@pytest.mark.parametrize("stated_m", [3.0, 50.0, 220.0])
+def test_a_distance_that_was_said_is_likeliest(kernels, stated_m) -> None:
     with torch.no_grad():
-        exact, loose = (kernels.said(METRES, said_m, is_loose=some) for some in (False, True))
+        exact, loose = (kernels.stated_distance(METRES, stated_m, is_loose=is_loose) for is_loose in (False, True))
     for fits in (exact, loose):
-        assert float(METRES[fits.argmax()]) == said_m
+        assert float(METRES[fits.argmax()]) == stated_m
         assert fits.max() == pytest.approx(1)
     assert (loose >= exact).all(), "blocks are less exact than metres"
 

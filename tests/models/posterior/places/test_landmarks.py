@@ -6,7 +6,7 @@ from models.citymap.gazetteer.name_columns import GazetteerObject
 from models.errors import IndexBroken
 from models.posterior.places import landmarks as landmarks_module
 from models.posterior.places.landmarks import FILE, Landmarks
-from models.posterior.places.name_probabilities import ON_STREET_M
+from models.posterior.places.name_probabilities import ON_STREET_REACH_M
 from tests.models.citymap.gazetteer.made_town import made_gazetteer, point
 
 CENTERS = np.array([(100.0, 78.0), (190.0, 75.0), (200.0, 80.0), (120.0, 92.0), (215.0, 300.0), (100.0, 300.0)])
@@ -24,27 +24,27 @@ def dense(table):
 
 def chance_of(table, names, name):
     """[N] chance of a name in each cell."""
-    return table.of(names.find(name))
+    return table.probability(names.find(name))
 
 
 def test_who_is_in_a_street_says_so(landmarks):
-    chance = dense(landmarks.on_street)
+    chance = dense(landmarks.street_table)
     assert [landmarks.streets.shown[n] for n in chance[[0, 3]].argmax(axis=1)] == ["West 25th Street"] * 2
     assert chance[0].max() > 0.99
-    east, avenue = (chance_of(landmarks.on_street, landmarks.streets, name) for name in ("w 25TH st", "10th Avenue"))
+    east, avenue = (chance_of(landmarks.street_table, landmarks.streets, name) for name in ("w 25TH st", "10th Avenue"))
     assert (east[2], avenue[2]) == pytest.approx((0.5, 0.5))  # at the corner
     assert east[1] > avenue[1] > 0.2
-    assert chance[5].sum() == 0.0  # farther than ON_STREET_M from any
-    assert ON_STREET_M < 90
+    assert chance[5].sum() == 0.0  # farther than ON_STREET_REACH_M from any
+    assert ON_STREET_REACH_M < 90
     assert (chance.sum(axis=1) < 1 + 1e-3).all()
 
 
 def test_a_sign_is_said_from_near_rather_than_from_far(landmarks):
-    chance = chance_of(landmarks.said, landmarks.names, "t optik")
+    chance = chance_of(landmarks.name_table, landmarks.names, "t optik")
     assert chance[3] > 0.9  # at its door
     assert 0.2 < chance[0] < 0.6  # two restaurants are farther, it is 24 m away
     assert chance[4] == 0.0
-    assert (dense(landmarks.said).sum(axis=1) < 1 + 1e-3).all()
+    assert (dense(landmarks.name_table).sum(axis=1) < 1 + 1e-3).all()
     assert not len(landmarks.names.find("London Terrace Gardens"))  # a building has no sign
 
 
@@ -54,31 +54,36 @@ def test_of_one_name_the_nearest_counts():
     for places in ([here, there], [there, here], [here], [there]):
         words = [GazetteerObject(("shop/bakery", "shop"), ("Rossi Bakery",))] * len(places)
         town = Landmarks.build(build_gazetteer(words, places, [False] * len(places)), np.zeros((1, 2)), ("shop",))
-        chances.append(chance_of(town.said, town.names, "Rossi Bakery")[0])
+        chances.append(chance_of(town.name_table, town.names, "Rossi Bakery")[0])
     assert chances[0] == chances[1] == chances[2] > chances[3] > 0
 
 
 def test_the_number_of_the_nearest_house_is_said():
     centers = np.array([(250.0, 88.0), (250.0, 80.0), (370.0, 95.0), (250.0, 300.0)])
     town = Landmarks.build(made_gazetteer(), centers, ("shop",))
-    chance = chance_of(town.numbered, town.addresses, "450 W 25th St")
+    chance = chance_of(town.address_table, town.addresses, "450 W 25th St")
     assert chance[0] > 0.7  # 7 m away, that across the street 23 m
-    assert chance[1] == pytest.approx(chance_of(town.numbered, town.addresses, "449 West 25th Street")[1])
-    assert 0.8 < dense(town.numbered).sum(axis=1)[1] < 0.9
-    assert chance_of(town.numbered, town.addresses, "402 W 25th")[2] == pytest.approx(
-        chance_of(town.numbered, town.addresses, "410 W 25th")[2]
+    assert chance[1] == pytest.approx(chance_of(town.address_table, town.addresses, "449 West 25th Street")[1])
+    assert 0.8 < dense(town.address_table).sum(axis=1)[1] < 0.9
+    assert chance_of(town.address_table, town.addresses, "402 W 25th")[2] == pytest.approx(
+        chance_of(town.address_table, town.addresses, "410 W 25th")[2]
     )
-    assert dense(town.numbered).sum(axis=1)[3] == 0.0
+    assert dense(town.address_table).sum(axis=1)[3] == 0.0
 
 
 def test_the_street_that_crosses_is_the_nearest(landmarks):
     streets, none = landmarks.streets, np.zeros(0, np.int64)
     tenth, west = streets.find("10th Avenue"), streets.find("West 25th Street")
-    on_west = landmarks.crossings.of(tenth, west)
+    on_west = landmarks.crossings.probability(tenth, west)
     assert on_west[[1, 2]].min() > 0.99
     assert on_west[0] == pytest.approx(0.5)  # half way between two
-    assert landmarks.crossings.of(tenth, none)[2] == pytest.approx(0.5, abs=0.01)  # or on it, and 25th Street crosses
-    assert landmarks.crossings.of(tenth, streets.find("Harlem Road"))[3] == landmarks.crossings.of(tenth, none)[3]
+    assert landmarks.crossings.probability(tenth, none)[2] == pytest.approx(
+        0.5, abs=0.01
+    )  # or on it, and 25th Street crosses
+    assert (
+        landmarks.crossings.probability(tenth, streets.find("Harlem Road"))[3]
+        == landmarks.crossings.probability(tenth, none)[3]
+    )
     assert landmarks.has_corners
 
 
@@ -87,23 +92,23 @@ def test_rows_and_columns_of_crossings_agree(landmarks, said):
     on = np.concatenate([np.zeros(0, np.int64), *(landmarks.streets.find(name) for name in said)])
     rows = landmarks.crossings.rows(np.arange(len(CENTERS)), on).toarray()
     for n in range(len(landmarks.streets)):
-        assert rows[:, n] == pytest.approx(landmarks.crossings.of(np.array([n]), on))
+        assert rows[:, n] == pytest.approx(landmarks.crossings.probability(np.array([n]), on))
     assert rows.sum(axis=1)[:4] == pytest.approx(np.ones(4))
 
 
 def test_cells_do_not_depend_on_which_others_there_are(landmarks):
     some = Landmarks.build(made_gazetteer(), CENTERS[[3, 1]], ("shop", "amenity"))
-    assert dense(some.said) == pytest.approx(dense(landmarks.said)[[3, 1]])
-    assert dense(some.on_street) == pytest.approx(dense(landmarks.on_street)[[3, 1]])
+    assert dense(some.name_table) == pytest.approx(dense(landmarks.name_table)[[3, 1]])
+    assert dense(some.street_table) == pytest.approx(dense(landmarks.street_table)[[3, 1]])
     crossings = [dense(one.crossings.pairs) for one in (some, landmarks)]
     assert crossings[0] == pytest.approx(crossings[1][[3, 1]])
 
 
-@pytest.mark.parametrize("at_once", [1, 4])
-def test_landmarks_are_the_same_of_however_many_cells_at_once(at_once, landmarks, monkeypatch):
-    monkeypatch.setattr(landmarks_module, "AT_ONCE", at_once)
+@pytest.mark.parametrize("cells_per_block", [1, 4])
+def test_landmarks_are_the_same_of_however_many_cells_cells_per_block(cells_per_block, landmarks, monkeypatch):
+    monkeypatch.setattr(landmarks_module, "CELLS_PER_BLOCK", cells_per_block)
     some = Landmarks.build(made_gazetteer(), CENTERS, ("shop", "amenity"))
-    for name in ("on_street", "said", "numbered"):
+    for name in ("street_table", "name_table", "address_table"):
         assert (dense(getattr(some, name)) == dense(getattr(landmarks, name))).all()
     assert (dense(some.crossings.pairs) == dense(landmarks.crossings.pairs)).all()
     assert some.crossings.on.tolist() == landmarks.crossings.on.tolist()
@@ -113,7 +118,9 @@ def test_landmarks_are_the_same_of_however_many_cells_at_once(at_once, landmarks
 def test_what_is_saved_is_loaded(landmarks, tmp_path):
     landmarks.save(tmp_path)
     loaded = Landmarks.load(tmp_path)
-    tables = [(getattr(landmarks, name), getattr(loaded, name)) for name in ("on_street", "said", "numbered")]
+    tables = [
+        (getattr(landmarks, name), getattr(loaded, name)) for name in ("street_table", "name_table", "address_table")
+    ]
     for was, found in [*tables, (landmarks.crossings.pairs, loaded.crossings.pairs)]:
         assert (dense(was) == dense(found)).all()
         assert dense(found).any()

@@ -71,11 +71,11 @@ def test_temper_is_chosen_by_what_is_claimed_against_what_is_true(monkeypatch) -
     model: Any = SimpleNamespace(likelihood=Likelihood(), config=PosteriorConfig())
     fitted = float(model.likelihood.temper.detach())
 
-    def locate(likelihood, is_right):
+    def locate(likelihood, evidence):
         # What is claimed grows with temper; every other answer is true, so it is honest at 0.6.
         claimed = np.exp(float(likelihood.temper.detach()) - fitted) * 0.5 / 0.6
         return SimpleNamespace(
-            rows=np.array([int(is_right)]), positions=np.zeros((1, 2)), probability=np.array([claimed]),
+            rows=np.array([int(evidence.hints)]), positions=np.zeros((1, 2)), probability=np.array([claimed]),
             share_within=lambda _: 0.8,
         )  # fmt: skip
 
