@@ -1,16 +1,9 @@
-"""Whole scenes of KITTI360Pose's published layout, read as the converter reads them."""
+"""Whole scenes of KITTI360Pose's published layout, without the checks across files (`load_data` has these)."""
 
 from pathlib import Path
 from typing import NamedTuple
 
-from models.sources.kitti360pose.files import (
-    build_cell_key,
-    check_poses,
-    iter_cells,
-    list_scenes,
-    load_poses,
-    select_scenes,
-)
+from models.sources.kitti360pose.files import iter_cells, list_scenes, load_poses, select_scenes
 from models.sources.kitti360pose.records import PublishedCell, PublishedPose
 
 
@@ -28,7 +21,4 @@ def load_cells(path: Path) -> list[PublishedCell]:
 
 def load_scene(root: Path, scene: str) -> Scene:
     [name] = select_scenes(list_scenes(root), scene, root / "cells")
-    cells, path = load_cells(root / f"cells/{name}.pkl"), root / f"poses/{name}.pkl"
-    poses = load_poses(path)
-    check_poses(path, poses, {cell.id: build_cell_key(cell) for cell in cells})
-    return Scene(name, cells, poses)
+    return Scene(name, load_cells(root / f"cells/{name}.pkl"), load_poses(root / f"poses/{name}.pkl"))

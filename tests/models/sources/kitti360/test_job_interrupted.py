@@ -9,8 +9,8 @@ import pytest
 from models.errors import DataError
 from models.sources.kitti360 import job as kitti360_job
 from models.sources.kitti360.job import prepare_data
+from models.sources.store.files import load_data
 from tests.models.sources.conftest import LONG, QUICK, VAL, contents, forbid
-from tests.models.sources.published import load_scene
 
 
 def stop(*args: object):
@@ -60,7 +60,7 @@ def test_a_scene_killed_while_it_is_put_in_place(
         with pytest.raises(KeyboardInterrupt):
             prepare_data(raw_root, tmp_path, "0010", QUICK)
     if (tmp_path / f"cells/{VAL}.pkl").exists():
-        load_scene(tmp_path, "0010")
+        load_data(tmp_path, "0010")
         assert contents(tmp_path / "poses") == contents(prepared / "poses", VAL)
     assert (tmp_path / f".placing-{VAL}").is_dir()
     with monkeypatch.context() as patch:

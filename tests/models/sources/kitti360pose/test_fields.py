@@ -12,8 +12,9 @@ from models.errors import DataError
 from models.sources.kitti360pose.files import load_poses, save_scene
 from models.sources.kitti360pose.pickle_values import PickledRecord
 from models.sources.kitti360pose.pickle_writer import cell_record, pose_record
+from models.sources.store.files import load_data
 from tests.models.sources.conftest import LONG, dump, make_cell, make_hint, make_pose, oracle
-from tests.models.sources.published import load_cells, load_scene
+from tests.models.sources.published import load_cells
 
 
 def nan(array: np.ndarray) -> np.ndarray:
@@ -134,7 +135,7 @@ def test_poses_that_do_not_belong_to_the_cells(change: dict, message: str, root:
     pose = replace(make_pose(make_cell(0)), **change)
     dump(root / f"poses/{LONG}.pkl", [pose_record(pose)])
     with pytest.raises(DataError, match=message) as error:
-        load_scene(root, "0003")
+        load_data(root, "0003")
     assert f"poses/{LONG}.pkl" in str(error.value)
     with pytest.raises(DataError, match=message):
         save_scene(tmp_path / "new", "0003", [make_cell(0)], [pose])

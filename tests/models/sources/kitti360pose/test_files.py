@@ -12,6 +12,7 @@ from models.errors import DataError
 from models.sources.kitti360pose.files import list_scenes, load_poses, save_scene, select_scenes, short_name
 from models.sources.kitti360pose.pickle_values import RECORD_CLASSES, RECORD_MODULE
 from models.sources.kitti360pose.pickle_writer import pose_record
+from models.sources.store.files import load_data
 from tests.models.sources.conftest import (
     LONG,
     MINI,
@@ -92,7 +93,7 @@ def test_pickles_of_every_protocol_and_numpy(protocol: int, core: bytes, tmp_pat
 
 def test_the_reference_package_is_never_imported(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "datapreparation", None)  # an import of it would raise
-    load_scene(root, "0003")
+    load_data(root, "0003")
     assert RECORD_MODULE not in sys.modules
 
 
@@ -149,7 +150,7 @@ def test_cells_without_poses_are_cells(root: Path) -> None:
     save_scene(root, "0003", [make_cell()], [])
     assert [cell.id for cell in load_cells(root / f"cells/{LONG}.pkl")] == ["0003_00000"]
     with pytest.raises(DataError, match=rf"poses/{LONG}\.pkl.*no poses"):
-        load_scene(root, "0003")
+        load_poses(root / f"poses/{LONG}.pkl")
 
 
 def test_a_failed_write_leaves_the_scene_as_it_was(root: Path) -> None:
