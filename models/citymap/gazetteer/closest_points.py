@@ -27,8 +27,8 @@ class PointGroups:
         low, high = np.minimum.reduceat(points_m, starts), np.maximum.reduceat(points_m, starts)
         centers = (low + high) / 2
         ends = np.append(starts, len(points_m))
-        away = np.hypot(*(points_m - np.repeat(centers, np.diff(ends), axis=0)).T)
-        return cls(points_m, ends, centers, float(away.max()))
+        distance_m = np.hypot(*(points_m - np.repeat(centers, np.diff(ends), axis=0)).T)
+        return cls(points_m, ends, centers, float(distance_m.max()))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -112,10 +112,10 @@ def _boxes_with_margin(segments_m: Floats, starts: Ints, margin_m: float) -> Flo
 @compiled
 def _offset_to_segment(x: float, y: float, ends: Floats) -> tuple[float, float]:
     along_x, along_y = ends[2] - ends[0], ends[3] - ends[1]
-    away_x, away_y = x - ends[0], y - ends[1]
+    from_x, from_y = x - ends[0], y - ends[1]
     square = along_x * along_x + along_y * along_y
-    share = min(1.0, max(0.0, (away_x * along_x + away_y * along_y) / max(square, 1e-9)))
-    return share * along_x - away_x, share * along_y - away_y
+    share = min(1.0, max(0.0, (from_x * along_x + from_y * along_y) / max(square, 1e-9)))
+    return share * along_x - from_x, share * along_y - from_y
 
 
 @compiled

@@ -89,7 +89,7 @@ class DistanceRaster:
         self._lines = draw_lines(self._grid, *shapes, np.arange(len(gazetteer)), LINE_SAMPLE_M)
         self._areas = draw_areas(self._grid, *shapes, np.flatnonzero(large), AREA_SAMPLE_M)
         self._area_starts = np.concatenate([[0], np.cumsum(large)])  # number of large areas before each object
-        self._cache: LRUCache[tuple[bytes, ...], GroupDistances] = LRUCache(CACHE_BYTES, lambda away: away.nbytes)
+        self._cache: LRUCache[tuple[bytes, ...], GroupDistances] = LRUCache(CACHE_BYTES, lambda item: item.nbytes)
 
     @cachedmethod(lambda raster: raster._cache, _cache_key)
     def distances_to(self, groups: Sequence[Ints], lines_m: Floats | None = None) -> GroupDistances:

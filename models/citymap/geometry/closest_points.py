@@ -148,9 +148,9 @@ def _offsets_to_groups(
 
 @compiled
 def _squared_box_distance(bounds_m: Floats, k: int, other_m: Floats) -> float:
-    away_x = max(bounds_m[k, 0] - other_m[2], 0.0, other_m[0] - bounds_m[k, 2])
-    away_y = max(bounds_m[k, 1] - other_m[3], 0.0, other_m[1] - bounds_m[k, 3])
-    return away_x * away_x + away_y * away_y
+    gap_x = max(bounds_m[k, 0] - other_m[2], 0.0, other_m[0] - bounds_m[k, 2])
+    gap_y = max(bounds_m[k, 1] - other_m[3], 0.0, other_m[1] - bounds_m[k, 3])
+    return gap_x * gap_x + gap_y * gap_y
 
 
 @compiled
@@ -172,11 +172,11 @@ def _improve_by_segments(
             share = (from_x * along_x + from_y * along_y) * a_share
             share = ZERO if share < ZERO else share
             share = ONE if share > ONE else share
-            way_x, way_y = from_x - share * along_x, from_y - share * along_y
-            this, so_far = way_x * way_x + way_y * way_y, best[g, p]
-            best[g, p] = this if this <= so_far else so_far
-            best_x[g, p] = way_x if this <= so_far else best_x[g, p]
-            best_y[g, p] = way_y if this <= so_far else best_y[g, p]
+            offset_x, offset_y = from_x - share * along_x, from_y - share * along_y
+            square, smallest = offset_x * offset_x + offset_y * offset_y, best[g, p]
+            best[g, p] = square if square <= smallest else smallest
+            best_x[g, p] = offset_x if square <= smallest else best_x[g, p]
+            best_y[g, p] = offset_y if square <= smallest else best_y[g, p]
 
 
 @compiled
@@ -205,6 +205,6 @@ def _improve_by_crown(
         nearer = 1.0
         if trunk[0, p] > 16.0 * crown_m * crown_m:
             nearer -= crown_m / np.sqrt(trunk[0, p] + 9.0 * crown_m * crown_m)
-        this = trunk[0, p] * nearer * nearer
-        if this <= best[g, p]:
-            best[g, p], best_x[g, p], best_y[g, p] = this, trunk_x[0, p] * nearer, trunk_y[0, p] * nearer
+        square = trunk[0, p] * nearer * nearer
+        if square <= best[g, p]:
+            best[g, p], best_x[g, p], best_y[g, p] = square, trunk_x[0, p] * nearer, trunk_y[0, p] * nearer

@@ -175,9 +175,9 @@ def _cut_chunk(table: PieceTable, whole: InstanceTotals, rules: CutRules, min_pa
     heights = table.heights_m[cubes.piece[order]]
     base, top = np.minimum.reduceat(heights[:, 0], starts), np.maximum.reduceat(heights[:, 1], starts)
     closest = _closest_points(cubes.geometry[order], centers[cubes.cube[order]], starts)
-    way = centers[cube, :2] - closest
-    metres = np.hypot(*way.T)
-    closest += way * (crown_reach_m(metres, table.crown_m[piece]) / np.maximum(metres, 1e-9))[:, None]
+    offset = centers[cube, :2] - closest
+    metres = np.hypot(*offset.T)
+    closest += offset * (crown_reach_m(metres, table.crown_m[piece]) / np.maximum(metres, 1e-9))[:, None]
     box = np.where(thing[:, None], whole.bounds_m[instance], np.concatenate([low, high], axis=1))
     count = np.where(thing, whole.point_count[instance], np.add.reduceat(cubes.point_count[order], starts))
     top = np.where(thing, top, np.minimum(top, np.maximum(centers[cube, 2] + rules.cell_size_m / 2, base)))

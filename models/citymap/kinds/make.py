@@ -176,8 +176,8 @@ def merge_brands(index: Json, brandless: list[str]) -> list[list[str]]:
                 merged.setdefault(item["tags"].get("brand:wikidata") or normalize_name(names[0]), []).extend(names)
     rows = []
     for names in merged.values():
-        once = {normalize_name(name): name for name in reversed(names)}
-        rows.append([once[form] for form in unique(map(normalize_name, names))])
+        by_form = {normalize_name(name): name for name in reversed(names)}
+        rows.append([by_form[form] for form in unique(map(normalize_name, names))])
     return sorted(rows)
 
 

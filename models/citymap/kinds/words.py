@@ -130,11 +130,11 @@ def english_nouns(presets: Iterable[Mapping[str, Any]], tables: Mapping[str, Any
         for phrase, rows in more.items():
             add_meanings(nouns, phrase, rows)
     by_hand = frozenset(nouns) | frozenset(people["no_terms"])
-    never = frozenset(people["never"])
-    neither = never | by_hand
+    excluded = frozenset(people["never"])
+    excluded_terms = excluded | by_hand
     for row in presets:
         for phrase, weight in preset_nouns(row):
-            if phrase not in (never if weight > TERM_WEIGHT else neither):
+            if phrase not in (excluded if weight > TERM_WEIGHT else excluded_terms):
                 add_meanings(nouns, phrase.casefold(), {row["id"]: weight})
     return sort_by_weight(nouns)
 

@@ -138,8 +138,8 @@ def _lane_points(plan: Plan, a: Node, b: Node) -> Floats:
 
 def smooth_track(track: Floats) -> Floats:
     """Return a track [F, 3] with rounded corners, about a metre apart, at the height of the camera."""
-    away = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(track, axis=0), axis=1))])
-    even = np.column_stack([np.interp(np.arange(0, away[-1] + 1e-9), away, axis) for axis in track.T])
+    travelled_m = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(track, axis=0), axis=1))])
+    even = np.column_stack([np.interp(np.arange(0, travelled_m[-1] + 1e-9), travelled_m, axis) for axis in track.T])
     half = SMOOTHING_WINDOW_M // 2
     padded = np.pad(even, ((half, half), (0, 0)), mode="edge")
     rounded = np.lib.stride_tricks.sliding_window_view(padded, SMOOTHING_WINDOW_M, axis=0).mean(axis=-1)

@@ -39,8 +39,8 @@ class Site:
         low, high = drive_m[:, :2].min(axis=0) - RASTER_MARGIN_M, drive_m[:, :2].max(axis=0) + RASTER_MARGIN_M
         self._low, counts = low, np.ceil((high - low) / RASTER_SPACING_M).astype(int)
         places = low + (np.indices(tuple(counts)).reshape(2, -1).T + 0.5) * RASTER_SPACING_M
-        away, pose = cKDTree(drive_m[:, :2]).query(places)
-        self._distance, self._pose = away.reshape(counts), pose.reshape(counts).astype(np.int32)
+        distance, pose = cKDTree(drive_m[:, :2]).query(places)
+        self._distance, self._pose = distance.reshape(counts), pose.reshape(counts).astype(np.int32)
         self._clouds: list[Floats] = []
         self._cloud_instance: list[int] = []  # row of `_classes`, for each cloud
         self._classes: list[int] = []  # row of CLASSES, for each instance

@@ -160,9 +160,9 @@ def _build_rarities(site: Site, stretches: list[Stretch]) -> None:
                 spot = stretch.spot.offset(length * float(rng.uniform(0.3, 0.7)), 0)
                 site.add(label, spot, bridge(rng, 2 * line.reach_m))
             elif label == "tunnel":
-                long = length * float(rng.uniform(0.3, 0.6))
-                spot = stretch.spot.offset(float(rng.uniform(4, length - long - 4)), 0)
-                site.add(label, spot, tunnel(rng, long, 2 * line.reach_m - 0.5))
+                tunnel_m = length * float(rng.uniform(0.3, 0.6))
+                spot = stretch.spot.offset(float(rng.uniform(4, length - tunnel_m - 4)), 0)
+                site.add(label, spot, tunnel(rng, tunnel_m, 2 * line.reach_m - 0.5))
             else:
                 _place_furniture(site, stretch, flip, "stop")
                 _place_furniture(site, stretch, flip, "vending machine")
@@ -173,9 +173,9 @@ def _build_lights(site: Site, plan: Plan) -> None:
     rng = site.rng
     crossings = [(LocalFrame(e.position_m, n.position_m), e, n) for e in plan.east for n in plan.north]
     near = [c for c in crossings if site.distance_to_drive_m(c[0]) <= SCAN_REACH_M]
-    lit = [c for c in near if rng.random() < (0.06, 0.45, 0.9)[c[1].is_main + c[2].is_main]]
-    lit.append(min(crossings, key=lambda c: site.distance_to_drive_m(c[0])))
-    for spot, east, north in lit:
+    with_lights = [c for c in near if rng.random() < (0.06, 0.45, 0.9)[c[1].is_main + c[2].is_main]]
+    with_lights.append(min(crossings, key=lambda c: site.distance_to_drive_m(c[0])))
+    for spot, east, north in with_lights:
         for su, sv in ((1, 1), (-1, 1), (-1, -1), (1, -1)):
             if rng.random() < 0.8:
                 u, v = su * (east.road_m / 2 + 0.6), sv * (north.road_m / 2 + 0.6)
