@@ -14,15 +14,10 @@ POINTS = "points"  # the method name of the point encoder
 
 @dataclass(frozen=True, slots=True)
 class TrainingRun:
-    """One training run.
+    """One training run."""
 
-    Attributes:
-        method: key of METHODS or FINE_METHODS, or POINTS.
-        changes: configuration fields that differ from the defaults, sorted by name.
-    """
-
-    method: str
-    changes: Changes = ()
+    method: str  # key of METHODS or FINE_METHODS, or POINTS
+    changes: Changes = ()  # configuration fields that differ from the defaults, sorted by name
 
     def with_changes(self, changes: Changes) -> "TrainingRun":
         """Return the run with further changes."""
@@ -49,48 +44,28 @@ class TrainingRun:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TableRow:
-    """A row of a table, or a point of a curve.
-
-    Attributes:
-        name: name of the row in the paper.
-        run: the training run.
-        published: published figures by column, on the test split.
-        validation: published figures on the validation split.
-        fine: the fine stage, in localization tables.
-        only: the one variant to compute; None for all variants of the table.
-    """
+    """A row of a table, or a point of a curve."""
 
     name: str
     run: TrainingRun
-    published: dict[str, str] = field(default_factory=dict)
-    validation: dict[str, str] = field(default_factory=dict)
-    fine: TrainingRun | None = None
-    only: str | None = None
+    published: dict[str, str] = field(default_factory=dict)  # figures by column, on the test split
+    validation: dict[str, str] = field(default_factory=dict)  # the same on the validation split
+    fine: TrainingRun | None = None  # the fine stage, in localization tables
+    only: str | None = None  # the one variant to compute; None for all variants of the table
 
 
 @dataclass(frozen=True, slots=True)
 class Experiment:
-    """A table or a curve.
+    """A table or a curve."""
 
-    Attributes:
-        key: "1" to "4", "4a", "4b", or a word for an experiment that is not in the paper.
-        title: number and subject.
-        rows: the rows, or the points of the curve in order.
-        metric: the measured task.
-        variants: the VARIANTS that are computed for each row.
-        every_seed: whether to run every seed, as for the tables, or the first only.
-        note: text for the report.
-        best: name of the row that is best in the paper, for curves without published figures.
-    """
-
-    key: str
+    key: str  # "1" to "4", "4a", "4b", or a word for an experiment that is not in the paper
     title: str
-    rows: tuple[TableRow, ...]
+    rows: tuple[TableRow, ...]  # of a curve: its points in order
     metric: Metric = "retrieval"
-    variants: tuple[str, ...] = tuple(VARIANTS)
-    every_seed: bool = True
+    variants: tuple[str, ...] = tuple(VARIANTS)  # the VARIANTS that are computed for each row
+    every_seed: bool = True  # whether to run every seed, as for the tables, or the first only
     note: str = ""
-    best: str | None = None
+    best: str | None = None  # name of the row that is best in the paper, for curves without published figures
 
     def row_variants(self) -> list[tuple[TableRow, str]]:
         """Return each row with each of its variants."""
@@ -112,16 +87,11 @@ class Experiment:
 
 @dataclass(frozen=True, slots=True)
 class TrainingScale:
-    """The extent of a reproduction.
+    """The extent of a reproduction."""
 
-    Attributes:
-        retriever, fine, points: changes of the settings in configs/, in the form that `load_settings` takes.
-        growth_radii_m: radii of the growing gallery of figure 5.
-    """
-
-    retriever: tuple[str, ...]
+    retriever: tuple[str, ...]  # changes of the settings in configs/, in the form that `load_settings` takes
     fine: tuple[str, ...]
-    growth_radii_m: tuple[float, ...]
+    growth_radii_m: tuple[float, ...]  # radii of the growing gallery of figure 5
     points: tuple[str, ...] = ()
 
 

@@ -25,28 +25,19 @@ CLONED_SHARE = 0.5  # of the examples use another cell than the best one (map cl
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FineBatch:
-    """A batch of B descriptions, each with one cell that contains its position.
-
-    Attributes:
-        cells: the cells.
-        sentences: [B, H] index into the vocabulary.
-        hint_mask: [B, H] bool, True where a hint is real.
-        targets: true offsets and matches.
-    """
+    """A batch of B descriptions, each with one cell that contains its position."""
 
     cells: CellBatch
-    sentences: Tensor
-    hint_mask: Tensor
+    sentences: Tensor  # [B, H] index into the vocabulary
+    hint_mask: Tensor  # [B, H] False at padding
     targets: FineTargets
 
 
 class FineSet:
     """A training set of a fine stage, with the offset in the cell and the instance of each hint.
 
-    Args:
-        training: positions and their hints.
-        pmc: prototype-based map cloning (Text2Loc): half of the examples use another cell that contains the position
-            instead of the best one.
+    With `pmc`, prototype-based map cloning (Text2Loc), half of the examples use another cell that contains the position
+    instead of the best one.
     """
 
     def __init__(self, training: TrainingSet, pmc: bool = True) -> None:
@@ -68,13 +59,7 @@ class FineSet:
         return cells
 
     def batch(self, size: int, rng: np.random.Generator, with_matches: bool = True) -> FineBatch:
-        """Draw examples with random position, cell, hints, wording and orientation.
-
-        Args:
-            size: B.
-            rng: draws the examples.
-            with_matches: whether to look up the instance of each hint; if not, all matches are -1.
-        """
+        """Draw examples with random position, cell, hints, wording and orientation; without matches, all are -1."""
         positions = rng.choice(self.training.usable, size)
         cells = self.draw_cells(positions, rng)
         symmetry = rng.integers(len(SYMMETRIES), size=size)
@@ -106,21 +91,14 @@ class FineSet:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FineValidation:
-    """Validation queries of a fine stage, in the wording of the benchmark.
+    """Validation queries of a fine stage, in the wording of the benchmark."""
 
-    Attributes:
-        features: the gallery.
-        size_m: edge length of the cells.
-        descriptions: Q lists of sentences.
-        rows: [Q, 2] the best cell of each query, and another that contains the position (-1 if there is none).
-        offset: [Q, 2, 2] true position in these cells, 0..1.
-    """
-
-    features: CellFeatures
-    size_m: float
-    descriptions: Sequence[Sequence[str]]
+    features: CellFeatures  # of the gallery
+    size_m: float  # edge of a cell
+    descriptions: Sequence[Sequence[str]]  # Q lists of sentences
+    # [Q, 2] best cell of each query, and another that contains the position; -1 for none
     rows: npt.NDArray[np.intp]
-    offset: Floats
+    offset: Floats  # [Q, 2, 2] true position in these cells, 0..1
 
     @classmethod
     def from_queries(cls, gallery: Gallery, queries: Queries, model: FineModel) -> "FineValidation":
@@ -160,15 +138,9 @@ class FineValidation:
 
 
 def containing_cells(cells: CellTable, positions_m: Floats, best: npt.NDArray[np.intp]) -> tuple[Ints, Ints]:
-    """Return the other cells that contain each position, the prototypes of Text2Loc's map cloning.
+    """Return the cells other than the best [N] that contain each position [N, 2], for Text2Loc's map cloning.
 
-    Args:
-        cells: the gallery.
-        positions_m: [N, 2].
-        best: [N] the best cell of each position, which gives its scene and is left out.
-
-    Returns:
-        starts [N + 1] and cells; position n has cells[starts[n]:starts[n + 1]], ascending.
+    Returns starts [N + 1] and cells; position n has cells[starts[n]:starts[n + 1]], ascending.
     """
     scene = np.unique(cells.scenes, return_inverse=True)[1] * SCENE_GAP_M
     tree = cKDTree(np.column_stack([cells.center_m[:, :2], scene]))
@@ -180,8 +152,7 @@ def containing_cells(cells: CellTable, positions_m: Floats, best: npt.NDArray[np
 
 def cell_offsets(cells: CellTable, rows: npt.NDArray[Any], positions_m: Floats) -> Floats:
     """Return the offsets [..., 2] of positions [..., 2] in cells [...], 0..1 inside."""
-    offset: Floats = (positions_m - cells.center_m[rows, :2]) / cells.size_m + 0.5
-    return offset
+    return (positions_m - cells.center_m[rows, :2]) / cells.size_m + 0.5
 
 
 def reflect_offset(offset: Tensor, matrix: Tensor) -> Tensor:

@@ -21,14 +21,7 @@ from models.training.training_data import TrainingData
 
 
 class FineTask:
-    """The training task of a fine stage (models.training.engine.loop.Task).
-
-    Args:
-        model: trained in place.
-        sources: a source is drawn per step, in proportion to its number of positions.
-        batch_size: examples per step.
-        pmc: see FineSet.
-    """
+    """The training task of a fine stage; a source is drawn per step, in proportion to its number of positions."""
 
     criterion = "within_5m"
 
@@ -75,18 +68,9 @@ def train_fine(
 ) -> dict[str, float]:
     """Train a fine stage, and save the weights with the best validation.
 
-    Args:
-        load: loads the training data.
-        out: directory for model.safetensors and config.json.
-        method: key of `FINE_METHODS`.
-        model: its configuration, of the method's `config_type`.
-        config: training settings (the paper: 32 to 35 epochs, learning rate 3e-4, halved every few epochs).
-        run_dir: see `run_training`.
-        resume: see `run_training`.
-        progress: see `run_training`.
-
-    Returns:
-        Validation metrics, the mean over the sources.
+    `load` loads the training data, `out` gets model.safetensors and config.json. Other arguments as `run_training`; the
+    paper trains 32 to 35 epochs with a learning rate of 3e-4, halved every few epochs. Returns the validation metrics,
+    the mean over the sources.
 
     Raises:
         TrainingError: see `run_training`.

@@ -32,15 +32,10 @@ TRAINING_CELLS_PER_SOURCE, VALIDATION_CELLS_PER_SOURCE = 800, 100
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PointExamples:
-    """R instances with their labels and colours.
+    """R instances with their labels and colours."""
 
-    Attributes:
-        points: [R, 256, 6].
-        label, colour: [R] int64, -100 where unknown.
-    """
-
-    points: Tensor
-    label: Tensor
+    points: Tensor  # [R, 256, 6]
+    label: Tensor  # [R] int64, -100 where unknown
     colour: Tensor
 
     @classmethod
@@ -125,22 +120,7 @@ def train_points(
     resume: bool = False,
     progress: Callable[[Progress], None] | None = None,
 ) -> dict[str, float]:
-    """Train and save a point encoder, for later trainings with `TrainingConfig.points`.
-
-    Args:
-        sources: the training data.
-        out: directory for model.safetensors and config.json.
-        config: training settings.
-        run_dir: see `run_training`.
-        resume: see `run_training`.
-        progress: see `run_training`.
-
-    Returns:
-        See `fit_points`.
-
-    Raises:
-        WeightsError, TrainingError: see `fit_points`.
-    """
+    """Train a point encoder, save it to `out` for `TrainingConfig.points`, and return its metrics; see `fit_points`."""
     torch.manual_seed(config.seed)
     encoder = PointEncoder()
     metrics = fit_points(encoder, sources, config, run_dir, resume, progress)
@@ -204,16 +184,7 @@ def fit_points(
 ) -> dict[str, float]:
     """Train a point encoder in place, and freeze it.
 
-    Args:
-        encoder: of a retriever or a fine stage.
-        sources: the training and validation cells.
-        config: training settings.
-        run_dir: see `run_training`.
-        resume: see `run_training`.
-        progress: see `run_training`.
-
-    Returns:
-        Shares of the validation instances with correct "label" and "colour".
+    Other arguments as `run_training`. Returns the shares of the validation instances with correct "label" and "colour".
 
     Raises:
         WeightsError: the points of the cells are not available.

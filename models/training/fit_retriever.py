@@ -1,7 +1,7 @@
 """Training of a retriever on maps and data sets."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -23,27 +23,10 @@ from models.training.training_data import TrainingData
 from models.training.validation import Validation, calibrate, mean_recall
 
 
-@dataclass(frozen=True, slots=True)
-class SourceBatch:
-    """A batch of one source.
-
-    Attributes:
-        source: index of the source.
-        examples: examples of the source.
-    """
-
-    source: int
-    examples: Batch
-
-
 class RetrievalTask:
     """The training task of a retriever; a source is drawn per step, in proportion to its number of positions.
 
-    Args:
-        model: any retriever.
-        sources: training and validation data.
-        batch_size: descriptions per step.
-        cluster: number of descriptions of a batch that lie near each other (hard negatives).
+    `cluster` descriptions of a batch lie near each other, as hard negatives.
     """
 
     criterion = "recall@5"
@@ -59,24 +42,23 @@ class RetrievalTask:
         """One validation for each source."""
         return [Validation(source.gallery, source.queries, self.model) for source in self.sources]
 
-    def batch(self, rng: np.random.Generator) -> SourceBatch:
+    def batch(self, rng: np.random.Generator) -> tuple[int, Batch]:
         """Draw a source, and examples of it."""
         drawn = int(rng.choice(len(self.sources), p=self._probability)) if len(self.sources) > 1 else 0
         training = self.sources[drawn].training
-        return SourceBatch(drawn, training.batch(training.draw(self.batch_size, self.cluster, rng), rng))
+        return drawn, training.batch(training.draw(self.batch_size, self.cluster, rng), rng)
 
-    def loss(self, batch: SourceBatch) -> Tensor:
+    def loss(self, batch: tuple[int, Batch]) -> Tensor:
         """Return the loss over all pairs of the batch, in float32 whatever precision the encoders use."""
         device = next(self.model.parameters()).device
-        training, examples = self.sources[batch.source].training, batch.examples
+        training, examples = self.sources[batch[0]].training, batch[1]
         training.to(device)
         mask = examples.hint_mask.to(device)
         hints = training.vocabulary.features(self.model.embed_hints, examples.sentences.to(device), mask)
         text = self.model.embed_texts(hints, mask)
         cells = self.model.embed_cells(examples.cells.to(device), training.label_embeddings)
-        with torch.autocast(
-            device.type, enabled=False
-        ):  # half precision is too coarse for logits at a temperature of 0.05
+        # Half precision is too coarse for logits at a temperature of 0.05.
+        with torch.autocast(device.type, enabled=False):
             return self.model.loss(_in_float32(text), _in_float32(cells), examples.same_cell.to(device))
 
     def validate(self) -> dict[str, float]:
@@ -102,18 +84,8 @@ def train_retriever(
 ) -> dict[int, float]:
     """Train a retriever, calibrate the weights with the best validation, and save them.
 
-    Args:
-        load: loads the training data.
-        out: directory for model.safetensors and config.json.
-        method: the retriever class.
-        model: architecture and loss, of its `config_type`.
-        config: training settings.
-        run_dir: see `run_training`.
-        resume: see `run_training`.
-        progress: called at every step.
-
-    Returns:
-        Retrieval recall@k on the validation queries, the mean over the sources.
+    `load` loads the training data, `out` gets model.safetensors and config.json. Other arguments as `run_training`.
+    Returns the retrieval recall@k on the validation queries, the mean over the sources.
 
     Raises:
         TrainingError: see `run_training`.
@@ -145,12 +117,7 @@ def _finish(
     retriever.config = retriever.config.model_copy(update=calibrate(retriever, validations, rng))
     recalls = [validation.recall(retriever) for validation in validations]
     facts = [_facts(*part) for part in zip(task.sources, validations, recalls, strict=True)]
-    training = {
-        "config": config.model_dump(mode="json"),
-        "sources": facts,
-        **history.facts,
-        "point_encoder": points,
-    }
+    training = {"config": config.model_dump(mode="json"), "sources": facts, **history.facts, "point_encoder": points}
     save_retriever(retriever.cpu(), out, training)
     return mean_recall(recalls)
 

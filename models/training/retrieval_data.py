@@ -37,19 +37,12 @@ DIRECTION_UNDER_SYMMETRY = np.array(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Batch:
-    """A batch of B descriptions with their cells.
+    """A batch of B descriptions with their cells."""
 
-    Attributes:
-        cells: the true cells.
-        sentences: [B, H] index into the vocabulary.
-        hint_mask: [B, H] bool, True where a hint is real.
-        cell: [B] int64, row of the true cell in the features of the training set.
-    """
-
-    cells: CellBatch
-    sentences: Tensor
-    hint_mask: Tensor
-    cell: Tensor
+    cells: CellBatch  # the true cells
+    sentences: Tensor  # [B, H] index into the vocabulary
+    hint_mask: Tensor  # [B, H] False at padding
+    cell: Tensor  # [B] int64, row of the true cell in the features of the training set
 
     @property
     def same_cell(self) -> Tensor:
@@ -59,27 +52,17 @@ class Batch:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DrawnHints:
-    """The drawn hints of B positions.
+    """The drawn hints of B positions."""
 
-    Attributes:
-        sentences: [B, H] index into the vocabulary, 0 at padding.
-        mask: [B, H] bool, True where a hint is real.
-        hints: [B, H] row of the hint table, -1 at padding.
-    """
-
-    sentences: npt.NDArray[np.int64]
-    mask: npt.NDArray[np.bool_]
-    hints: npt.NDArray[np.int64]
+    sentences: npt.NDArray[np.int64]  # [B, H] index into the vocabulary, 0 at padding
+    mask: npt.NDArray[np.bool_]  # [B, H] False at padding
+    hints: npt.NDArray[np.int64]  # [B, H] row of the hint table, -1 at padding
 
 
 class HintVocabulary:
     """All possible hint sentences of a region with their token features, computed once and cached on disk.
 
-    Args:
-        encoder: the frozen text encoder.
-        labels: class names.
-        words: colour words of the palette.
-        pairs: [n, 2] the pairs (label, colour) that occur, -1 for no colour.
+    `pairs` [n, 2] are those of label and colour that occur, -1 for no colour.
     """
 
     def __init__(self, encoder: TextEncoder, labels: tuple[str, ...], words: tuple[str, ...], pairs: Any) -> None:
@@ -106,12 +89,9 @@ class HintVocabulary:
         return TokenFeatures(values, mask[:, :longest], self._ids[sentences, :longest])
 
     def features(self, read: Callable[[TokenFeatures], Tensor], sentences: Tensor, mask: Tensor) -> Tensor:
-        """Return [B, H, D] features of the hints of a batch, 0 at padding; each different sentence is read once.
+        """Return the features [B, H, D] of the hints of a batch, 0 at padding; encodes each distinct sentence once.
 
-        Args:
-            read: a model's sentence encoder, tokens of S sentences to [S, D].
-            sentences: [B, H] indices of sentences.
-            mask: [B, H] bool, True where a hint is real.
+        `read` encodes the tokens of S sentences as [S, D]; `sentences` and `mask` are [B, H].
         """
         different, row = torch.unique(sentences[mask], return_inverse=True)
         features = read(self.tokens(different))
@@ -122,18 +102,14 @@ class HintVocabulary:
     def sentence(self, label: Any, colour: Any, direction: Any, template: Any) -> npt.NDArray[np.int64]:
         """Return indices of sentences; the arguments broadcast."""
         pair = self._pair[label, colour]
-        index: npt.NDArray[np.int64] = (pair * len(DIRECTIONS) + direction) * len(TEMPLATES) + template
-        return index
+        return (pair * len(DIRECTIONS) + direction) * len(TEMPLATES) + template
 
 
 class TrainingSet:
     """Training positions with all possible hints of each.
 
-    Args:
-        statements: the positions and their hints.
-        encoder: the frozen text encoder.
-        wording: "varied" draws the hints, their number and their wording, and sometimes omits colours; "published" uses
-            the hints of the data set (in a map, the nearest six) in the wording of the benchmark.
+    "varied" wording draws the hints, their number and their wording, and sometimes omits colours; "published" uses the
+    hints of the data set (in a map, the nearest six) in the wording of the benchmark.
 
     Raises:
         DataError: no position has enough hints.
@@ -166,8 +142,7 @@ class TrainingSet:
         groups = max(1, size // cluster)
         seeds = rng.choice(self.usable, groups, replace=len(self.usable) < groups)
         near = self._tree.query_ball_point(self.statements.positions_m[seeds], HARD_NEGATIVE_RADIUS_M)
-        drawn: npt.NDArray[np.intp] = self.usable[np.concatenate([rng.choice(group, cluster) for group in near])]
-        return drawn
+        return self.usable[np.concatenate([rng.choice(group, cluster) for group in near])]
 
     def batch(self, positions: npt.NDArray[np.intp], rng: np.random.Generator) -> Batch:
         """Return examples at some positions, with random hints, wording and orientation."""
@@ -212,12 +187,7 @@ class TrainingSet:
 
 
 def reflect_cells(batch: CellBatch, matrix: Tensor) -> CellBatch:
-    """Apply symmetries of the compass to cells; their point features stay the same.
-
-    Args:
-        batch: padded cells.
-        matrix: [B, 2, 2] symmetry of each cell, on (east, north).
-    """
+    """Apply symmetries of the compass [B, 2, 2], on (east, north), to cells; their point features stay the same."""
     geometry = batch.geometry.clone()
     for columns in (slice(0, 2), slice(3, 5), slice(6, 8)):  # centre, closest point, direction to it
         geometry[..., columns] = torch.einsum("bij,bnj->bni", matrix, geometry[..., columns])

@@ -33,22 +33,14 @@ C = TypeVar("C", bound=BaseModel)
 
 
 class TrainingConfig(LoopConfig):
-    """Training settings of a retriever or a fine stage.
+    """Training settings of a retriever or a fine stage."""
 
-    Attributes:
-        cluster: number of descriptions of a batch that lie near each other (hard negatives).
-        spacing_m: spacing of the training positions in an OpenStreetMap file.
-        wording: "varied" draws the number of hints and their wording; "published" is that of the benchmark.
-        pmc: for the fine stage, prototype-based map cloning (Text2Loc): half of the examples use another cell that
-            contains the position instead of the best one.
-        points: directory of a point encoder from `hereabouts train --method points`, for models with points among their
-            inputs; None trains one first.
-    """
-
-    cluster: int = Field(default=4, ge=1)
-    spacing_m: float = Field(default=4.0, gt=0)
+    cluster: int = Field(default=4, ge=1)  # descriptions of a batch near each other, hard negatives
+    spacing_m: float = Field(default=4.0, gt=0)  # of the training positions in an OpenStreetMap file
+    # "varied" draws the number of hints and their wording; "published" is that of the benchmark.
     wording: WordingMode = "varied"
-    pmc: bool = True
+    pmc: bool = True  # prototype-based map cloning, see `FineSet`
+    # Directory of a point encoder (`hereabouts train --method points`) for point inputs; None trains one.
     points: Path | None = None
 
 

@@ -17,17 +17,11 @@ from models.training.settings import TrainingConfig
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TrainingCells:
-    """Cells of one map or data set, for the training of a point encoder.
-
-    Attributes:
-        training: cells of the training part.
-        validation: cells of the validation part.
-        facts: description of the data, for the config.json of the weights.
-    """
+    """Cells of one map or data set, for the training of a point encoder."""
 
     training: CellFeatures
     validation: CellFeatures
-    facts: dict[str, Any]
+    facts: dict[str, Any]  # for the config.json of the weights
 
     @classmethod
     def from_sources(cls, training: Source, validation: Source) -> "TrainingCells":
@@ -37,18 +31,12 @@ class TrainingCells:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TrainingData:
-    """One map or data set to train on.
-
-    Attributes:
-        training: positions of the training part.
-        gallery, queries: cells and queries of the validation part.
-        facts: description of the data, for the config.json of the weights.
-    """
+    """One map or data set to train on."""
 
     training: TrainingSet
-    gallery: Gallery
+    gallery: Gallery  # of the validation part, like the queries
     queries: Queries
-    facts: dict[str, Any]
+    facts: dict[str, Any]  # for the config.json of the weights
 
     @classmethod
     def from_sources(
@@ -59,15 +47,7 @@ class TrainingData:
         config: TrainingConfig,
         rng: np.random.Generator,
     ) -> "TrainingData":
-        """Return the data of a training and a validation source.
-
-        Args:
-            training: the training source.
-            validation: the validation source.
-            encoder: the frozen text encoder.
-            config: spacing of the positions and wording of the hints.
-            rng: draws positions in a map.
-        """
+        """Return the data of a training and a validation source; `rng` draws positions in a map."""
         training_set = TrainingSet(training.statements(config.spacing_m, rng), encoder, config.wording)
         gallery, queries = validation.data.gallery, validation.queries(VALIDATION_SEED)
         return cls(training_set, gallery, queries, _facts(training, validation))

@@ -18,13 +18,7 @@ from models.training.metrics import RETRIEVAL_KS, retrieval_recall
 
 
 class Validation:
-    """Validation queries of a gallery.
-
-    Args:
-        gallery: the cells.
-        queries: the queries.
-        retriever: the retriever to validate; its point encoder must not change.
-    """
+    """Validation queries of a gallery; the point encoder of the retriever must not change."""
 
     def __init__(self, gallery: Gallery, queries: Queries, retriever: Retriever) -> None:
         self.features = retriever.with_point_features(CellFeatures.from_cells(gallery.cells, np.array(gallery.labels)))
@@ -41,12 +35,7 @@ class Validation:
 
 
 class EncodedGallery:
-    """The vectors of a gallery at all levels of a retriever.
-
-    Args:
-        retriever: the model.
-        features: the cells.
-    """
+    """The vectors of a gallery at all levels of a retriever."""
 
     def __init__(self, retriever: Retriever, features: CellFeatures) -> None:
         self.retriever = retriever
@@ -64,21 +53,15 @@ def mean_recall(recalls: Sequence[dict[int, float]]) -> dict[int, float]:
     return {k: float(np.mean([recall[k] for recall in recalls])) for k in RETRIEVAL_KS}
 
 
-CALIBRATION_QUERIES = 500  # per source
+CALIBRATION_QUERIES_PER_SOURCE = 500
 ScoredQueries = tuple[int, npt.NDArray[np.floating[Any]], npt.NDArray[np.intp]]
 
 
 def calibrate(retriever: Retriever, validations: Sequence[Validation], rng: np.random.Generator) -> dict[str, Any]:
     """Fit the configuration fields that turn the scores of a retriever into probabilities.
 
-    Args:
-        retriever: a trained retriever.
-        validations: their queries are used with all hints, and with fewer hints drawn at random.
-        rng: draws the hints.
-
-    Returns:
-        "temperature", "temperature_decay", and, for more than one level, "level_weights" and
-        "global_temperature", "global_temperature_decay".
+    The validation queries are used with all hints, and with fewer hints drawn at random. The fields are "temperature",
+    "temperature_decay" and, for more than one level, "level_weights", "global_temperature", "global_temperature_decay".
     """
     scored = [part for validation in validations for part in _score_queries(retriever, validation, rng)]
     weights, temperature, decay = fit_weights(scored)
@@ -116,7 +99,7 @@ def fit_weights(scored: Sequence[ScoredQueries]) -> tuple[tuple[float, ...], flo
 def _score_queries(retriever: Retriever, validation: Validation, rng: np.random.Generator) -> list[ScoredQueries]:
     gallery = EncodedGallery(retriever, validation.features)
     max_hints = min(len(hints) for hints in validation.descriptions)
-    rows = np.arange(0, len(validation.truth), max(1, len(validation.truth) // CALIBRATION_QUERIES))
+    rows = np.arange(0, len(validation.truth), max(1, len(validation.truth) // CALIBRATION_QUERIES_PER_SOURCE))
     scored: list[ScoredQueries] = []
     for count in range(1, max_hints + 1):
         texts = [rng.permutation(list(validation.descriptions[int(row)]))[:count].tolist() for row in rows]

@@ -15,7 +15,7 @@ from torch import Tensor
 from models.files import cache_directory, replace_file
 from models.language.text_encoder import TextEncoder, TokenFeatures
 
-ENCODE_BATCH = 256  # sentences
+SENTENCES_PER_BATCH = 256
 _CACHE_FORMAT = 1  # increase when the content of the files changes
 _log = logging.getLogger(__name__)
 
@@ -26,12 +26,8 @@ def frozen_features(encoder: TextEncoder, sentences: Sequence[str]) -> TokenFeat
     If several processes need the same features, one computes them and the others wait. If the cache cannot be read or
     written, the features are computed.
 
-    Args:
-        encoder: the frozen text encoder, on any device; its fingerprint is part of the cache key.
-        sentences: S sentences; part of the key, in this order.
-
-    Returns:
-        Values [S, T, W] float16, mask [S, T] and ids [S, T], on the CPU.
+    The key is the encoder's fingerprint and the S sentences in order. Returns values [S, T, W] float16, mask [S, T] and
+    ids [S, T], on the CPU.
     """
     key = json.dumps([_CACHE_FORMAT, encoder.fingerprint, list(sentences)])
     path = cache_directory() / "tokens" / f"{hashlib.sha256(key.encode()).hexdigest()}.safetensors"
@@ -60,7 +56,7 @@ def _write(path: Path, features: TokenFeatures) -> TokenFeatures:
 
 
 def _compute(encoder: TextEncoder, sentences: Sequence[str]) -> TokenFeatures:
-    batches = (encoder(sentences[i : i + ENCODE_BATCH]) for i in range(0, len(sentences), ENCODE_BATCH))
+    batches = (encoder(sentences[i : i + SENTENCES_PER_BATCH]) for i in range(0, len(sentences), SENTENCES_PER_BATCH))
     parts = [(batch.values.half().cpu(), batch.mask.cpu(), batch.ids.cpu()) for batch in batches]
     longest = max(mask.shape[1] for _, mask, _ in parts)
     return TokenFeatures(*(torch.cat([_pad(x, longest) for x in column]) for column in zip(*parts, strict=True)))

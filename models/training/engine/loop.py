@@ -20,53 +20,39 @@ _Schedule = torch.optim.lr_scheduler.OneCycleLR | torch.optim.lr_scheduler.StepL
 
 
 class LoopConfig(BaseModel):
-    """Settings of the optimisation.
-
-    Attributes:
-        seed: of all random choices.
-        steps: optimisation steps.
-        batch_size: examples per step.
-        learning_rate: peak of "one-cycle", initial value of "step".
-        schedule: "one-cycle" rises for a tenth of the steps and then falls to almost 0; "step" halves the rate every
-            `halve_every` steps (the paper: every 5 epochs).
-        halve_every: in steps.
-        weight_decay: of AdamW.
-        clip_norm: maximum norm of the gradient.
-        validate_every: steps between validations; the weights with the best criterion are kept.
-        patience: validations without a better criterion before an early stop; None never stops early.
-        amp: precision of the forward pass on a GPU; a CPU always uses float32.
-        device: "auto" uses a GPU if there is one.
-    """
+    """Settings of the optimisation."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     seed: int = 0
     steps: int = Field(default=1500, ge=1)
     batch_size: int = Field(default=128, ge=2)
-    learning_rate: float = Field(default=1e-3, gt=0)
+    learning_rate: float = Field(default=1e-3, gt=0)  # peak of "one-cycle", initial value of "step"
+    # "one-cycle" rises for a tenth of the steps and then falls to almost 0; "step" halves the rate every `halve_every`
+    # steps (the paper: every 5 epochs).
     schedule: Literal["one-cycle", "step"] = "one-cycle"
     halve_every: int = Field(default=500, ge=1)
     weight_decay: float = Field(default=0.01, ge=0)
     clip_norm: float = Field(default=1.0, gt=0)
+    # In steps; the weights with the best criterion are kept.
     validate_every: int = Field(default=250, ge=1)
+    # Validations without a better criterion before an early stop.
     patience: int | None = Field(default=None, ge=1)
+    # Precision of the forward pass on a GPU; a CPU always uses float32.
     amp: Literal["none", "bfloat16", "float16"] = "bfloat16"
     device: Literal["auto", "cpu", "cuda"] = "auto"
 
 
 class Task(Protocol):
-    """A model with its training and validation data.
-
-    Attributes:
-        model: trained in place; the loop moves it to the device, and the task uses that device.
-        criterion: key of `validate()` that selects the best weights, for example "recall@5"; larger is better.
-    """
+    """A model with its training and validation data."""
 
     @property
-    def model(self) -> nn.Module: ...  # noqa: D102
+    def model(self) -> nn.Module:
+        """The model to train in place; the loop moves it to the device."""
 
     @property
-    def criterion(self) -> str: ...  # noqa: D102
+    def criterion(self) -> str:
+        """The key of `validate()` that selects the best weights, such as "recall@5"; larger is better."""
 
     def batch(self, rng: np.random.Generator) -> Any:
         """Draw `LoopConfig.batch_size` examples, on the CPU."""
@@ -80,38 +66,23 @@ class Task(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """The state of a training, for a progress bar.
-
-    Attributes:
-        step: steps done.
-        steps: total number of steps.
-        loss: of this step.
-        figures: metrics of the validation after this step, if there was one.
-        descriptions_per_second: examples trained on since the last validation.
-    """
+    """The state of a training, for a progress bar."""
 
     step: int
     steps: int
     loss: float
-    figures: dict[str, float] | None
-    descriptions_per_second: float
+    figures: dict[str, float] | None  # metrics of the validation after this step, if there was one
+    descriptions_per_second: float  # examples trained on since the last validation
 
 
 @dataclass(slots=True)
 class History:
-    """The result of a training.
+    """The result of a training."""
 
-    Attributes:
-        rows: one per validation.
-        best_step: step with the best criterion, whose weights are kept.
-        best: best criterion.
-        stopped_early: whether `patience` ended the training.
-    """
-
-    rows: list[ValidationRow] = field(default_factory=list)
-    best_step: int = 0
+    rows: list[ValidationRow] = field(default_factory=list)  # one per validation
+    best_step: int = 0  # step with the best criterion, whose weights are kept
     best: float = -math.inf
-    stopped_early: bool = False
+    stopped_early: bool = False  # whether `patience` ended the training
 
     @property
     def facts(self) -> dict[str, Any]:
@@ -136,11 +107,10 @@ def run_training(
     Args:
         task: the model and its data.
         config: settings of the optimisation.
-        run_dir: directory for config.json, metrics.csv, curves.png, best.safetensors and state.safetensors;
-            None writes nothing.
+        run_dir: directory for the files of `RunDir`; None writes nothing.
         resume: continue the run in `run_dir` if there is one; the result equals that of an uninterrupted run.
         progress: called at every step.
-        rng: draws the batches; None for a generator seeded by `config.seed`.
+        rng: draws the batches; None for one seeded by `config.seed`.
         record: content of config.json; None for `config`.
 
     Raises:

@@ -34,23 +34,14 @@ _OPTIMIZER, _MODEL, _BEST, _GENERATOR = "optimizer.", "model.", "best.", "genera
 
 @dataclass(frozen=True, slots=True)
 class ValidationRow:
-    """The results of a validation, a row of metrics.csv.
-
-    Attributes:
-        step: steps done.
-        seconds: since the start, with validations but without the pauses of a resumed run.
-        loss: mean loss since the last validation.
-        learning_rate: of the last step.
-        descriptions_per_second: examples trained on since the last validation.
-        figures: metrics of the task's `validate`.
-    """
+    """The results of a validation, a row of metrics.csv."""
 
     step: int
-    seconds: float
-    loss: float
-    learning_rate: float
-    descriptions_per_second: float
-    figures: dict[str, float]
+    seconds: float  # since the start, with validations but without the pauses of a resumed run
+    loss: float  # mean loss since the last validation
+    learning_rate: float  # of the last step
+    descriptions_per_second: float  # examples trained on since the last validation
+    figures: dict[str, float]  # metrics of the task's `validate`
 
     def flat(self) -> dict[str, float]:
         """Return the columns of metrics.csv."""
@@ -66,15 +57,10 @@ class _Stateful(Protocol):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RunState:
-    """The state from which a run can be resumed.
-
-    Attributes:
-        tensors: by name.
-        facts: everything else, in the form of JSON.
-    """
+    """The state from which a run can be resumed."""
 
     tensors: dict[str, Tensor]
-    facts: dict[str, Any]
+    facts: dict[str, Any]  # everything else, in the form of JSON
 
     @classmethod
     def capture(
@@ -88,18 +74,7 @@ class RunState:
         rows: Sequence[ValidationRow],
         counters: dict[str, Any],
     ) -> "RunState":
-        """Return the state of a run.
-
-        Args:
-            model: the current model.
-            best_weights: weights of the best validation so far.
-            optimizer: of the parameters of the model.
-            others: the schedule and the scaler.
-            numpy_generator: state of NumPy's generator.
-            torch_generators: states of torch's generators.
-            rows: validations so far.
-            counters: counters of the loop.
-        """
+        """Return the state of a run; `others` are the schedule and the scaler."""
         state = optimizer.state_dict()
         tensors = {_MODEL + name: tensor for name, tensor in model.state_dict().items()}
         tensors |= {_BEST + name: tensor for name, tensor in best_weights.items()}
@@ -117,8 +92,7 @@ class RunState:
     @property
     def counters(self) -> dict[str, Any]:
         """The counters of the loop."""
-        counters: dict[str, Any] = self.facts["counters"]
-        return counters
+        return self.facts["counters"]
 
     @property
     def rows(self) -> list[ValidationRow]:
@@ -157,11 +131,6 @@ class RunDir:
     @classmethod
     def open(cls, path: Path, resume: bool, record: dict[str, Any]) -> "RunDir":
         """Create a run directory, or open one to resume its run.
-
-        Args:
-            path: created if it is missing.
-            resume: whether to resume the run in the directory; if not, there must be none.
-            record: the settings as JSON; a run can only be resumed with the same settings.
 
         Raises:
             TrainingError: the directory has a run that is not to be resumed, or one with other settings.
@@ -202,14 +171,7 @@ class RunDir:
     def write(
         self, rows: Sequence[ValidationRow], criterion: str, best_weights: dict[str, Tensor], state: RunState
     ) -> None:
-        """Write the results of a validation, and the state last.
-
-        Args:
-            rows: all validations so far.
-            criterion: the metric that selects the best weights, for the curves.
-            best_weights: weights of the best validation so far.
-            state: to resume from.
-        """
+        """Write the results of all validations so far, and the state last; `criterion` is for the curves."""
         replace_file(self.path / METRICS_FILE, _table(rows))
         replace_file(self.path / CURVES_FILE, _curves(rows, criterion))
         replace_file(self.path / BEST_FILE, save(_plain(best_weights)))
@@ -218,8 +180,7 @@ class RunDir:
 
 
 def _facts(metadata: dict[str, str]) -> dict[str, Any]:
-    facts: dict[str, Any] = json.loads(metadata["facts"])
-    return facts
+    return json.loads(metadata["facts"])
 
 
 def _plain(tensors: dict[str, Tensor]) -> dict[str, Tensor]:

@@ -13,9 +13,8 @@ from models.errors import TrainingError
 from models.language.mentions.cue_reader import ANGLES, FORMS, RELATIONS
 
 LABELLED_DIR: Final = Path(__file__).parents[2] / "language" / "mentions" / "labelled"
-REAL_PLACES: Final = (
-    "real_places"  # the place kernels are fitted to some of these, read by a cue reader trained on the other half
-)
+# The place kernels are fitted to some of these, as read by a cue reader that was trained on the other half.
+REAL_PLACES: Final = "real_places"
 OTHER_SETS: Final = ("invented", "meeting")
 TRAINING_SETS: Final = (REAL_PLACES, *OTHER_SETS)
 # Shares of the texts that are mirrored, misspelt, and lose a mention.
@@ -105,13 +104,7 @@ def collect_names(texts: Sequence[CueText]) -> Names:
 
 
 def augment(text: CueText, names: Names, rng: np.random.Generator) -> CueText:
-    """Return a variant of a text: other names, the mirror image, misspellings, no punctuation, a mention fewer.
-
-    Args:
-        text: a labelled text.
-        names: see `collect_names`.
-        rng: draws the changes.
-    """
+    """Return a variant of a text: other names, the mirror image, misspellings, no punctuation, a mention fewer."""
     for _ in range(RENAMINGS):
         if rng.random() < RENAMING_SHARE:
             text = replace_name(text, names, rng)

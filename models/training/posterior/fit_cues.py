@@ -30,17 +30,9 @@ def fit_cues(
     rng: np.random.Generator,
     progress: Callable[[int, int, float], None] | None = None,
 ) -> float:
-    """Train a cue reader in place.
+    """Train an untrained cue reader in place, and return the mean loss of the last epoch.
 
-    Args:
-        reader: an untrained reader, on any device.
-        texts: labelled texts.
-        epochs: over all texts.
-        rng: draws the order of the texts and their augmentation.
-        progress: called with (steps done, steps, mean loss).
-
-    Returns:
-        The mean loss of the last epoch.
+    `rng` draws the order of the texts and their augmentation; `progress` is called with (steps done, steps, mean loss).
     """
     if not texts:
         raise TrainingError("no labelled texts")
@@ -99,16 +91,14 @@ def _loss(reader: CueReader, texts: Sequence[CueText]) -> Tensor:
     meant = tensor([mention.is_meant for mention in mentions])
     true_flags = tensor([[mention.has_wind, mention.is_meant] for mention in mentions]).float()
     if not mentions:
-        zero: Tensor = flags.sum()
-        return zero
+        return flags.sum()
     cross = nn.functional.cross_entropy
     total: Tensor = cross(angle, tensor([mention.angle for mention in mentions]), label_smoothing=LABEL_SMOOTHING)
     if bool(meant.any()):
         rows = tensor([mention.relation for mention in mentions])
         total = total + RELATION_WEIGHT * cross(relation[meant], rows[meant], label_smoothing=LABEL_SMOOTHING)
     flagged = nn.functional.binary_cross_entropy_with_logits(flags, true_flags)
-    loss: Tensor = total + FLAG_WEIGHT * flagged
-    return loss
+    return total + FLAG_WEIGHT * flagged
 
 
 def accuracy(reader: CueReader, texts: Sequence[CueText]) -> dict[str, float]:

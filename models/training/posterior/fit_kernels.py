@@ -42,21 +42,13 @@ SAMPLED_CELLS = 4000  # for the mean of a kernel over the map
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MapTexts:
-    """A map and the texts about it.
-
-    Attributes:
-        gazetteer: names of the map.
-        frame: of the map.
-        centers_m: [N, 2] centres of the cells.
-        grid_m: spacing of the cells.
-        texts: with goals on the map.
-    """
+    """A map and the texts about it."""
 
     gazetteer: Gazetteer
     frame: Frame
-    centers_m: Floats
-    grid_m: float
-    texts: Sequence[PlaceText]
+    centers_m: Floats  # [N, 2] of the cells
+    grid_m: float  # their spacing
+    texts: Sequence[PlaceText]  # with goals on the map
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -84,17 +76,9 @@ def fit_kernels(
     rng: np.random.Generator,
     progress: Callable[[int, int, float], None] | None = None,
 ) -> float:
-    """Fit kernels in place, by the posterior density at the true positions.
+    """Fit the kernels of examples in place by Adam, by the posterior density at the true positions.
 
-    Args:
-        kernels: the kernels of the examples, with their initial weights.
-        examples: the texts to fit to.
-        steps: of Adam, with `BATCH_TEXTS` texts each.
-        rng: draws texts.
-        progress: called with (steps done, steps, recent mean loss).
-
-    Returns:
-        The mean loss of the last steps, nats.
+    `progress` is called with (steps done, steps, recent loss). Returns the mean loss of the last steps, nats.
 
     Raises:
         TrainingError: there are no examples.
@@ -129,12 +113,7 @@ def read_examples(
 ) -> list[KernelExample]:
     """Read the texts about a map; texts without a mention of the map are left out.
 
-    Args:
-        kernels: the kernels to fit.
-        texts: the map and its texts.
-        encoder: tells which words are common.
-        cues_for: returns the cue reader for a text.
-        rng: draws cells.
+    The encoder tells which words are common, `cues_for` returns the cue reader for a text, `rng` draws cells.
     """
     field = PlaceField(kernels, texts.gazetteer, texts.centers_m, texts.grid_m)
     lookup = Lookup(texts.gazetteer, load_vocabulary(), encoder.is_everyday)
@@ -205,13 +184,7 @@ def _log_p(example: KernelExample) -> Tensor:
 def calibrate_kernels(
     kernels: PlaceKernels, examples: Sequence[KernelExample], steps: int, rng: np.random.Generator
 ) -> tuple[float, float, float]:
-    """Calibrate probabilities and radii by two-fold cross-fitting.
-
-    Args:
-        kernels: the kernels of the examples; unchanged afterwards.
-        examples: the texts to fit to and to calibrate on.
-        steps: of each fit.
-        rng: draws the halves.
+    """Calibrate probabilities and radii by two-fold cross-fitting; the kernels are unchanged afterwards.
 
     Returns:
         The factor of `temper` that makes the probability of the best cell match its hit rate; then the .9 quantile of
@@ -256,8 +229,7 @@ def _outcome(example: KernelExample) -> tuple[float, float, float]:
 def _log_prior(points_m: Floats, listener_m: Floats | None) -> Floats:
     if listener_m is None:
         return np.zeros(len(points_m))
-    density: Floats = -((points_m - listener_m) ** 2).sum(axis=1) / (2 * START_SIGMA_M**2)
-    return density
+    return -((points_m - listener_m) ** 2).sum(axis=1) / (2 * START_SIGMA_M**2)
 
 
 def _nodes(centers_m: Floats, grid_m: float) -> tuple[Floats, Ints]:

@@ -26,17 +26,11 @@ LEARNING_RATE = 0.05
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SiteTexts:
-    """Read texts about positions of a training site.
-
-    Attributes:
-        site: the site.
-        rows: [Q] rows of the positions in the site.
-        bound_hints: Q bound hints.
-    """
+    """Read texts about positions of a training site."""
 
     site: TrainingSite
-    rows: Ints
-    bound_hints: Sequence[BoundHints]
+    rows: Ints  # [Q] positions of the site
+    bound_hints: Sequence[BoundHints]  # Q
 
 
 def fit_likelihood(
@@ -46,14 +40,9 @@ def fit_likelihood(
     rng: np.random.Generator,
     progress: Callable[[int, int, float], None] | None = None,
 ) -> None:
-    """Fit a likelihood in place, by the posterior density at the true positions.
+    """Fit a likelihood in place by Adam, by the posterior density at the true positions.
 
-    Args:
-        likelihood: with its initial weights.
-        texts: texts of each site; a site is drawn in proportion to its number of texts.
-        steps: of Adam, with `BATCH_TEXTS` texts each.
-        rng: draws texts and cells.
-        progress: called with (steps done, steps, recent mean loss).
+    Sites are drawn in proportion to their number of texts; `progress` is called with (steps done, steps, recent loss).
     """
     sizes = np.array([len(part.bound_hints) for part in texts], dtype=np.float64)
     start = [part.site.posterior(likelihood) for part in texts]  # selects cells; has the means over the map
@@ -89,8 +78,7 @@ def negative_log_density(
     squared_m2 = ((site.surroundings.positions_m(nodes) - site.positions_m[row]) ** 2).sum(axis=1)
     squared_m2 = np.where(scene[owner] == scene[site.truth[row]], squared_m2, np.inf)
     blur = torch.from_numpy(-squared_m2 / (2 * BLUR_M**2)).float()
-    loss: Tensor = log_p.logsumexp(0) - (log_p + blur).logsumexp(0)
-    return loss
+    return log_p.logsumexp(0) - (log_p + blur).logsumexp(0)
 
 
 def nodes_of_cells(site: TrainingSite, cells: Ints) -> tuple[Ints, NodeBatch]:

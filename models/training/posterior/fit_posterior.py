@@ -49,18 +49,9 @@ def train_posterior(
 ) -> dict[str, float]:
     """Train, calibrate and save a posterior; the readers on `config.device`, the likelihood on the CPU.
 
-    Args:
-        data: maps and data sets for the likelihood, see `open_sources`.
-        splits: the split for the fit, and the additional split for the calibration.
-        out: directory for model.safetensors and config.json.
-        model: configuration of the reader.
-        config: how to train the reader.
-        run_dir: see `run_training`; for the reader.
-        resume: see `run_training`.
-        progress: called at every step of the reader.
-
-    Returns:
-        Validation metrics.
+    `data` are maps and data sets for the likelihood, `splits` the split for the fit and the additional split for the
+    calibration (see `open_sources`), `out` gets model.safetensors and config.json. Other arguments are those of the
+    reader's `run_training`. Returns validation metrics.
 
     Raises:
         TrainingError: see `run_training`.
@@ -87,15 +78,8 @@ def refit_posterior(
 ) -> dict[str, float]:
     """Fit and calibrate a new likelihood for a trained reader, and save both.
 
-    Args:
-        reader: directory with the weights of the reader.
-        data: see `train_posterior`.
-        splits: see `train_posterior`.
-        out: see `train_posterior`; may be the directory of the reader.
-        config: only its seed is used.
-
-    Returns:
-        Validation metrics.
+    `reader` is the directory of its weights, and may be `out`. Of `config`, only the seed is used. Other arguments and
+    result as `train_posterior`.
 
     Raises:
         WeightsError: the reader cannot be loaded.

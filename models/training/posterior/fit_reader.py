@@ -16,7 +16,7 @@ from models.language.parsed_hint import RELATIONS
 from models.language.reader import COLOURS, TAGS, Reader
 from models.language.text_encoder import TextEncoder, TokenFeatures
 
-ENCODE_BATCH = 32  # texts
+TEXTS_PER_BATCH = 32
 MAX_FACTS = 8
 BATCHES_PER_WINDOW = 8  # a batch is drawn from a window of this many batches of texts with similar length
 PASSAGE_SHARE = 0.4  # of the texts are one long passage
@@ -97,22 +97,14 @@ def _write(wording: Wording, facts: Sequence[Fact], rng: np.random.Generator) ->
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ReadingBatch:
-    """A batch of B texts with S mentions.
-
-    Attributes:
-        tokens: of the texts.
-        tags: [B, T], -100 at padding.
-        text: [S] index of each mention's text.
-        start, end: [S] token range of each mention.
-        relation, colour, absent: [S] labels; -100 where the text leaves them open.
-    """
+    """A batch of B texts with S mentions."""
 
     tokens: TokenFeatures
-    tags: Tensor
-    text: Tensor
-    start: Tensor
+    tags: Tensor  # [B, T], -100 at padding
+    text: Tensor  # [S] index of each mention's text
+    start: Tensor  # [S] token range of each mention
     end: Tensor
-    relation: Tensor
+    relation: Tensor  # [S] labels; -100 where the text leaves them open
     colour: Tensor
     absent: Tensor
 
@@ -124,13 +116,7 @@ class ReadingBatch:
 class ReadingSet:
     """Texts of a grammar with the output of the frozen layers, encoded once and stored on the CPU.
 
-    Args:
-        encoder: the text encoder, on any device.
-        depth: number of frozen layers.
-        grammar: name of the grammar.
-        size: number of texts.
-        seed: of facts and wording.
-        progress: called with (texts encoded, texts).
+    `depth` is the number of frozen layers, `size` that of texts; `progress` is called with (texts encoded, texts).
     """
 
     def __init__(
@@ -148,8 +134,8 @@ class ReadingSet:
         self.by_length = np.argsort([len(text.text) for text in self.texts], kind="stable")
         self._values: list[Tensor] = [torch.empty(0)] * size
         self._targets: list[tuple[Tensor, list[tuple[int, int]]]] = [(torch.empty(0), [])] * size
-        for start in range(0, size, ENCODE_BATCH):
-            rows = self.by_length[start : start + ENCODE_BATCH]
+        for start in range(0, size, TEXTS_PER_BATCH):
+            rows = self.by_length[start : start + TEXTS_PER_BATCH]
             tokens, characters = encoder.read([self.texts[n].text for n in rows], depth)
             values, mask = tokens.values.cpu(), tokens.mask.cpu()
             for k, n in enumerate(rows.tolist()):
@@ -159,7 +145,7 @@ class ReadingSet:
                     self.texts[n].mentions, characters[k, :length], torch.ones(length, dtype=torch.bool)
                 )
             if progress:
-                progress(min(start + ENCODE_BATCH, size), size)
+                progress(min(start + TEXTS_PER_BATCH, size), size)
 
     def __len__(self) -> int:
         return len(self.texts)
@@ -205,13 +191,7 @@ def example_targets(
 
 
 class ReadingTask:
-    """The training task of the hint reader (models.training.engine.loop.Task).
-
-    Args:
-        model: trained in place.
-        training, validation: texts of two grammars.
-        batch_size: texts per step.
-    """
+    """The training task of the hint reader (models.training.engine.loop.Task) with texts of two grammars."""
 
     criterion = "f1"
 
@@ -244,8 +224,7 @@ def pool_mentions(features: Tensor, batch: ReadingBatch) -> Tensor:
     """Return the mean features [S, D] of the tokens of each mention."""
     sums = torch.cat([torch.zeros_like(features[:, :1]), features.cumsum(dim=1)], dim=1)
     width = (batch.end - batch.start)[:, None]
-    mean: Tensor = (sums[batch.text, batch.end] - sums[batch.text, batch.start]) / width
-    return mean
+    return (sums[batch.text, batch.end] - sums[batch.text, batch.start]) / width
 
 
 @torch.no_grad()

@@ -30,16 +30,16 @@ def train_places(
     seed: int,
     progress: Callable[[str, int, int, float], None] | None = None,
 ) -> dict[str, float]:
-    """Train the cue reader, fit and calibrate the kernels on maps with texts, and save the weights.
+    """Train the cue reader, fit and calibrate the kernels on maps with texts, and save the weights; on the CPU.
 
     Two cue readers are trained on half of the texts each. The kernels are fitted to every text as read by the reader
-    that was not trained on it. All of this runs on the CPU.
+    that was not trained on it. The calibration takes twice the steps of the fit.
 
     Args:
         maps: OpenStreetMap files, each with files of texts about it (`load_place_texts`).
-        weights: of the posterior whose other parts stay; None for those that ship with the package.
-        out: directory for model.safetensors and config.json; may be the directory of the weights.
-        steps: see `fit_kernels`; the calibration takes twice as many.
+        weights: of the posterior whose other parts stay; None for the shipped ones. May be the same as `out`.
+        out: directory for model.safetensors and config.json.
+        steps: see `fit_kernels`.
         seed: of all random choices.
         progress: called with the name of the phase, steps done, steps, and the mean loss.
 

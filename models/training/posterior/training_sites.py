@@ -22,7 +22,7 @@ from models.posterior.neighbours.neighbour_index import NeighbourIndex, build_ne
 from models.posterior.posterior import HintPosterior
 from models.sources.source import QUERY_SPACING_M, VALIDATION_SEED, Source
 
-READ_BATCH = 16  # texts
+TEXTS_PER_BATCH = 16
 SLIP_SHARE = 0.15  # of the texts contain a false fact, as texts by people do
 CLASS_SLIP_SHARE = 0.4  # of the false facts have a wrong class; the others a wrong direction and colour
 OMISSION_SHARE, MIN_FACTS = 0.3, 2  # share of the texts with fewer facts, and their minimum number
@@ -32,26 +32,16 @@ MEASURED_SHARE = 0.5  # of the distant things are mentioned with their distance
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TrainingSite:
-    """A map, or a part of it, with hints at known positions.
-
-    Attributes:
-        surroundings, cells: of the gallery.
-        label: [P] index into `labels` of each object of the surroundings.
-        labels: all labels.
-        palette: colour words.
-        hints: Q lists of hints.
-        positions_m: [Q, 2] true positions.
-        truth: [Q] true cells.
-    """
+    """A map, or a part of it, with hints at known positions."""
 
     surroundings: NeighbourIndex
     cells: CellTable
-    label: npt.NDArray[np.int64]
+    label: npt.NDArray[np.int64]  # [P] index into `labels` of each object of the surroundings
     labels: tuple[str, ...]
     palette: Palette
-    hints: Sequence[tuple[Hint, ...]]
-    positions_m: Floats
-    truth: Ints
+    hints: Sequence[tuple[Hint, ...]]  # Q lists of hints
+    positions_m: Floats  # [Q, 2] true positions
+    truth: Ints  # [Q] true cells
 
     @classmethod
     def from_source(cls, source: Source, spacing_m: float = QUERY_SPACING_M) -> "TrainingSite":
@@ -84,13 +74,7 @@ class TrainingSite:
         """Write and read texts about some positions.
 
         Some texts contain a false fact (`SLIP_SHARE`), fewer facts (`OMISSION_SHARE`), or distant things
-        (`DISTANT_SHARE`).
-
-        Args:
-            model: reads the texts.
-            rows: rows of the positions.
-            grammars: one is drawn for each text; None is the wording of the benchmark.
-            rng: draws grammars and wording.
+        (`DISTANT_SHARE`). A grammar is drawn for each text; None is the wording of the benchmark.
         """
         binding = Binding(model.matcher, self.labels, self.palette)
         wordings = {grammar: Wording(grammar or "train") for grammar in grammars}
@@ -107,8 +91,8 @@ class TrainingSite:
             wording = wordings[grammar]
             texts.append((wording.write(facts, rng) if grammar else wording.published(facts)).text)
         bound_hints = []
-        for start in range(0, len(texts), READ_BATCH):
-            read = model.reader.read(texts[start : start + READ_BATCH])
+        for start in range(0, len(texts), TEXTS_PER_BATCH):
+            read = model.reader.read(texts[start : start + TEXTS_PER_BATCH])
             bound_hints += [binding.bind(hints) if hints else binding.uninformative_hint() for hints in read]
         return bound_hints
 
