@@ -23,13 +23,7 @@ _COLOUR_SPREAD: Final = 0.15  # in units of rgb, of similar colours; not measure
 
 
 class Binding:
-    """The labels and colours of a map.
-
-    Args:
-        matcher: compares nouns with labels.
-        labels: of the map, each once.
-        palette: its colour words.
-    """
+    """The labels of a map, each once, and its colours."""
 
     def __init__(self, matcher: LabelMatcher, labels: Sequence[str], palette: Palette) -> None:
         self.matcher, self.labels = matcher, tuple(labels)

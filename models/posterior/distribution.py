@@ -67,8 +67,7 @@ def heaviest(cell: Ints, weight: Floats) -> Ints:
     starts = np.flatnonzero(np.diff(cell, prepend=-1))
     highest = np.repeat(np.maximum.reduceat(weight, starts), np.diff(np.append(starts, len(weight))))
     best = np.flatnonzero(weight == highest)
-    rows: Ints = best[np.diff(cell[best], prepend=-1) != 0]
-    return rows
+    return best[np.diff(cell[best], prepend=-1) != 0]
 
 
 @compiled

@@ -133,12 +133,7 @@ class Likelihood(nn.Module):
     ) -> Pairs:
         """Return the pairs of neighbour and hint that fit.
 
-        Args:
-            hints: of the text.
-            appearance: [P, H] of `appearance_fit`.
-            part: [R] row of `appearance` of each neighbour.
-            relation_table: of the method of this name.
-            relation_row: [R] row of `relation_table` of each neighbour.
+        Neighbours [R] have a `part`, a row of `appearance` [P, H], and a row of `relation_table`.
         """
         known = (appearance.detach().amax(dim=1) > MIN_FIT).index_select(0, part).nonzero().flatten()
         position = self.position_fit(hints, relation_table.index_select(0, relation_row.index_select(0, known)))
@@ -154,15 +149,9 @@ class Likelihood(nn.Module):
         return eps
 
     def combine(self, hints: BoundHints, node: Tensor, nodes: int, pairs: Pairs, share: Tensor, eps: Tensor) -> Tensor:
-        """Return log p(T | x) [M].
+        """Return log p(T | x) [M] of M nodes.
 
-        Args:
-            hints: of the text.
-            node: [R] node of each neighbour.
-            nodes: M.
-            pairs: see `find_pairs`.
-            share: [K, 3] `mention_share` of the neighbour of each pair.
-            eps: [H] of `background_p`.
+        `node` [R] is that of each neighbour, `share` [K, 3] the mention share of each pair, `eps` [H] the background.
         """
         count, row = len(eps), pairs.row
         key = node.index_select(0, row) * count + pairs.hint

@@ -90,8 +90,7 @@ def best_rows(scores: Floats, count: int) -> Ints:
     lowest = np.partition(high, -count)[-count] if len(high) > count else -np.inf
     above = np.flatnonzero(high > lowest)
     chosen = rows[np.concatenate([above, np.flatnonzero(high == lowest)[: count - len(above)]])]
-    best: Ints = chosen[np.lexsort((chosen, -scores[chosen]))]
-    return best
+    return chosen[np.lexsort((chosen, -scores[chosen]))]
 
 
 def _field(posterior: HintPosterior, evidence: PositionEvidence, chosen: Ints, coarsening: Ints) -> Field:
@@ -176,8 +175,7 @@ def _positions(field: Field, nodes_m: Floats, weight: Floats, order: Ints, cells
     chosen[owner[ascending]] = ascending  # of each cell, the last one stays: that with the most mass
     distance = np.abs(nodes_m[centers] - cells.center_m[field.cells[order[0]], :2]).max(axis=1)
     chosen[order[0]] = np.where(distance <= cells.size_m / 2, near_mass, -1.0).argmax()
-    positions: Floats = _mean_near(near_m, share, chosen[order], MEAN_RADIUS_M)
-    return positions
+    return _mean_near(near_m, share, chosen[order], MEAN_RADIUS_M)
 
 
 @compiled
@@ -210,5 +208,4 @@ def _is_near(points_m: Floats, a: int, b: int, radius_m: float) -> float:
     """Return about 1 for two points within a radius, and 0 beyond."""
     x, y = (points_m[a, 0] - points_m[b, 0]) / radius_m, (points_m[a, 1] - points_m[b, 1]) / radius_m
     square = x * x + y * y
-    factor: float = np.exp(-square * square * square) if square < 4.0 else 0.0
-    return factor
+    return np.exp(-square * square * square) if square < 4.0 else 0.0

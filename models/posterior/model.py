@@ -14,19 +14,14 @@ from models.posterior.places.kernels import PlaceKernels
 
 
 class PosteriorConfig(ReaderConfig):
-    """Shape and calibration.
+    """Shape and calibration."""
 
-    Attributes:
-        radius_held: what radii must hold of the distribution to hold .5 and .9 of the truths; from validation data.
-        place_scale: factor on the radii of texts that name places; fitted on texts by language models and by people.
-        meeting_scale: the same for texts that tell somebody where to come.
-        grammar_sha256: of the phrases that the reader was trained on.
-    """
-
+    # Mass that must lie within radii for them to contain .5 and .9 of the truths; from validation data.
     radius_held: tuple[float, float] = RADIUS_MASSES
+    # Factor on the radii of texts that name places; fitted on texts by language models and by people.
     place_scale: float = 1.0
-    meeting_scale: float = 1.0
-    grammar_sha256: str = ""
+    meeting_scale: float = 1.0  # the same for texts about a meeting point
+    grammar_sha256: str = ""  # of the phrases that the reader was trained on
 
 
 class PosteriorModel(TextEncoderModel):

@@ -39,13 +39,7 @@ class ObjectsOfClass:
 
 
 class NearbyObjects:
-    """The objects around the nodes of a map.
-
-    Args:
-        surroundings: neighbour index of the gallery.
-        label: [P] class number of each object.
-        colour_words: of the objects.
-    """
+    """The objects around the nodes of a map; `label` [P] is the class number of each."""
 
     def __init__(self, surroundings: NeighbourIndex, label: npt.NDArray[np.int64], colour_words: ColourWords) -> None:
         self.surroundings, self._label, self._colour_words = surroundings, label, colour_words
@@ -78,12 +72,7 @@ def _objects_of_class(around: Neighbours, rows: Ints, nodes: int) -> ObjectsOfCl
 
 
 class ObjectsAround:
-    """The objects around M nodes, by class.
-
-    Args:
-        by_class: the objects of each class.
-        colour_words: of the objects.
-    """
+    """The objects around M nodes, by class."""
 
     def __init__(self, by_class: Mapping[int, ObjectsOfClass], colour_words: ColourWords) -> None:
         self._by_class, self._colour_words = by_class, colour_words
@@ -116,8 +105,7 @@ class ObjectsAround:
     def colours(self, label: int, mass: Floats) -> Floats:
         """Return the share [W] of a mass [M] where the nearest object of a class has each colour word."""
         objects = self._by_class[label]
-        share: Floats = (objects.weight * mass[objects.node]) @ self._word_shares[label]
-        return share
+        return (objects.weight * mass[objects.node]) @ self._word_shares[label]
 
     @cached_property
     def _word_shares(self) -> Mapping[int, Floats]:
@@ -130,5 +118,4 @@ class ObjectsAround:
 
 def _soft_below(values: Floats, middle: float, soft: float) -> Floats:
     """Return about 1 below the middle and 0 above."""
-    factor: Floats = 1 / (1 + np.exp(np.clip((values - middle) / soft, -50, 50)))
-    return factor
+    return 1 / (1 + np.exp(np.clip((values - middle) / soft, -50, 50)))

@@ -63,15 +63,10 @@ def offset_codes(offset: Tensor) -> Tensor:
 
 
 def ranks_of(node: Tensor, offset_code: Tensor, label: Tensor) -> Tensor:
-    """Return the ranks and counts [R, 5] of neighbours.
+    """Return the ranks and counts [R, 5] of neighbours, ordered by node and distance.
 
     The first three are numbers of nearer neighbours of the node: over all, of the same class, in the same direction.
     The last two are numbers of all neighbours of the class and of the direction.
-
-    Args:
-        node: [R] ascending; neighbours nearest first.
-        offset_code: [R] see `offset_codes`.
-        label: [R].
     """
     ranks = np.empty((len(node), len(RANKS) + 2), np.int64)
     _fill_ranks(node.numpy(), label.numpy(), _DIRECTION_OF_OFFSET[offset_code].numpy(), ranks)
@@ -111,11 +106,7 @@ _DIRECTION_OF_OFFSET: Final = _directions_of_offsets()
 def mean_statements(label: Tensor, rgb: Tensor, parts: Tensor, palette: Palette) -> Tensor:
     """Return the share [L, W + 1] of a map's parts with each label and colour word; last, with the label.
 
-    Args:
-        label: [P] of each object.
-        rgb: [P, 3] colours, 0..1, NaN where unknown.
-        parts: [P] number of parts of cells that show each object.
-        palette: the map's colour words.
+    Objects have labels [P], colours [P, 3], NaN where unknown, and are shown by a number of parts [P].
     """
     names = colour_words(palette)
     centers = torch.tensor(np.asarray(palette.centers) / 255, dtype=torch.float32)

@@ -61,15 +61,9 @@ UNEXPLAINED: Final = HintExplanation(0.0, -1, np.zeros(2))
 
 
 class HintPosterior:
-    """The posterior of one gallery.
+    """The posterior of one gallery; `label` [P] numbers the labels of the objects of `surroundings`.
 
-    Args:
-        likelihood: fitted.
-        surroundings: neighbour index of the gallery.
-        cells: the gallery.
-        label: [P] label number of each object of `surroundings`.
-        palette: the map's colour words.
-        statements: of the gallery; None to compute them.
+    Statements are computed if there are none.
     """
 
     @torch.inference_mode()

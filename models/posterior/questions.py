@@ -24,8 +24,7 @@ class ReplyEvidence:
 def with_errors(true: Floats) -> Floats:
     """Return the probability [..., K] of each reply from the probability [..., K] that it is true."""
     others = max(1, true.shape[-1] - 1)
-    probability: Floats = (1 - WRONG_REPLY_SHARE) * true + WRONG_REPLY_SHARE * (1 - true) / others
-    return probability
+    return (1 - WRONG_REPLY_SHARE) * true + WRONG_REPLY_SHARE * (1 - true) / others
 
 
 def name_with_errors(true: Floats, names: int, matches: int = 1) -> Floats:
@@ -37,8 +36,7 @@ def name_with_errors(true: Floats, names: int, matches: int = 1) -> Floats:
         matches: number of names that the reply may mean.
     """
     wrong = WRONG_REPLY_SHARE / max(1, names - 1)
-    probability: Floats = (1 - WRONG_REPLY_SHARE - wrong) * true + matches * wrong
-    return probability
+    return (1 - WRONG_REPLY_SHARE - wrong) * true + matches * wrong
 
 
 def entropy(mass: Floats) -> float:
@@ -60,8 +58,7 @@ def expected_entropy(mass: Floats, reply_p: Floats) -> Floats:
     marginal = joint.sum(axis=1, keepdims=True)  # p(a)
     # p(a) H(X | a) = - sum_x p(x, a) log p(x | a)
     share = joint / np.maximum(marginal, 1e-300)
-    left: Floats = -(joint * np.log2(np.maximum(share, 1e-300))).sum(axis=(1, 2))
-    return left
+    return -(joint * np.log2(np.maximum(share, 1e-300))).sum(axis=(1, 2))
 
 
 def expected_entropy_of_names(mass: Floats, true: csr_array, names: int) -> float:
@@ -88,5 +85,4 @@ def expected_entropy_of_names(mass: Floats, true: csr_array, names: int) -> floa
 
 
 def _log(values: Floats) -> Floats:
-    logs: Floats = np.log2(np.maximum(values, 1e-300))
-    return logs
+    return np.log2(np.maximum(values, 1e-300))

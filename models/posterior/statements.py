@@ -227,16 +227,9 @@ def _sum(hint_log_p: Floats, weights: Floats, total: Floats) -> None:
 def statement_rows(
     likelihood: Likelihood, surroundings: NeighbourIndex, label: Tensor, rgb: Tensor, colour_word_p: Tensor
 ) -> StatementRows:
-    """Compute the statements of all cells, in several processes for many cells.
+    """Compute the statements of all cells, in several processes for many; a row does not depend on other blocks.
 
-    A row does not depend on cells of other blocks.
-
-    Args:
-        likelihood: tells how likely each neighbour is mentioned.
-        surroundings: neighbour index of C cells.
-        label: [P] of each object.
-        rgb: [P, 3] colours, NaN where unknown.
-        colour_word_p: [P, W] probability of each colour word.
+    Objects have labels [P], colours [P, 3], NaN where unknown, and the probability [P, W] of each colour word.
     """
     unknown, count = rgb.isnan().any(dim=1), colour_word_p.shape[1] + 1
     pair = (label * count + torch.where(unknown, count - 1, colour_word_p.argmax(dim=1))).numpy()

@@ -61,11 +61,9 @@ class NeighbourIndex(Protocol):
         ...
 
     def take(self, cells: Ints, parts: Ints) -> "NeighbourIndex":
-        """Return the index of a subset of cells.
+        """Return the index of some cells, in their order.
 
-        Args:
-            cells: rows, in the order of the result.
-            parts: [P] number of their parts that show each object; objects without any are dropped.
+        `parts` [P] is the number of their parts that show each object; objects without any are dropped.
         """
         ...
 
@@ -77,13 +75,9 @@ class NeighbourIndex(Protocol):
 def build_neighbour_index(
     bodies: PointClouds | PieceGeometry, cells: CellTable, progress: Progress | None = None, rows: range | None = None
 ) -> NeighbourIndex:
-    """Build the neighbour index of a gallery.
+    """Build the neighbour index of a gallery, or of a range of its cells with the nodes that they own.
 
-    Args:
-        bodies: the geometry of the map.
-        cells: the gallery.
-        progress: called with instances done and to do.
-        rows: consecutive cells to build it for, with the nodes that they own; None for all.
+    `progress` is called with instances done and to do.
     """
     if not isinstance(bodies, PieceGeometry):
         return ScanNeighbourIndex.build(bodies, cells, progress, rows)

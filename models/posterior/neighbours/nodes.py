@@ -72,12 +72,7 @@ def central_nodes(
 ) -> Ints:
     """Return the node [C] nearest to the centre of each cell that has nodes.
 
-    Args:
-        cell_starts: [N + 1] cell n owns the nodes cell_starts[n] to cell_starts[n + 1].
-        origins: [N, 2] origin of a cell's nodes, in steps.
-        nodes: [M, 2] in steps.
-        step_m: length of a step.
-        centers_m: [N, 2] of the cells.
+    Cell n owns nodes cell_starts[n] to cell_starts[n + 1]; nodes [M, 2] count steps from the cell's origin [N, 2].
     """
     central, count = np.empty(len(centers_m), np.int64), 0
     for n in range(len(centers_m)):

@@ -73,22 +73,15 @@ class PieceNeighbourIndex:
 
     def positions_m(self, nodes: Ints) -> Floats:
         """As in `NeighbourIndex`."""
-        return self._positions_m(nodes, self.owner(nodes))
-
-    def _positions_m(self, nodes: Ints, cell: Ints) -> Floats:
-        """Return the positions [n, 2] of nodes owned by cells [n]."""
-        positions_m: Floats = _positions_m(self.center_m, self.offset, nodes, cell)
-        return positions_m
+        return _positions_m(self.center_m, self.offset, nodes, self.owner(nodes))
 
     def middles(self, centers_m: Floats) -> Ints:
         """As in `NeighbourIndex`."""
-        middles: Ints = central_nodes(self.cell_starts, _step_of(self.center_m), self.offset, SPACING_M, centers_m)
-        return middles
+        return central_nodes(self.cell_starts, _step_of(self.center_m), self.offset, SPACING_M, centers_m)
 
     def owner(self, nodes: Ints) -> Ints:
         """As in `NeighbourIndex`."""
-        owner: Ints = owner_of(self.cell_starts, nodes)
-        return owner
+        return owner_of(self.cell_starts, nodes)
 
     def around(self, nodes: Ints) -> Neighbours:
         """As in `NeighbourIndex`."""
@@ -99,7 +92,7 @@ class PieceNeighbourIndex:
             self.pieces,
             self.rules,
             self.center_m[cell[first]],
-            self._positions_m(nodes, cell),
+            _positions_m(self.center_m, self.offset, nodes, cell),
             starts,
             HINT_REACH_M,
             STEP_M,
@@ -169,5 +162,4 @@ def _positions_m(center_m: Floats, offset: Ints, nodes: Ints, cell: Ints) -> Flo
 
 def _step_of(center_m: Floats) -> Ints:
     """Return the node [N, 2] next to each centre, in steps of the grid."""
-    step: Ints = np.round(center_m / SPACING_M).astype(np.int64)
-    return step
+    return np.round(center_m / SPACING_M).astype(np.int64)

@@ -83,8 +83,7 @@ class ScanDistances:
         half_m = self.cells.size_m / 2
         plane = cKDTree(xyz[:, :2], balanced_tree=False)
         inside = plane.query_ball_point(self.nodes_m[near, :2], half_m, p=np.inf, return_length=True)
-        is_near: npt.NDArray[np.bool_] = inside >= self.bodies.thing_share * len(xyz)
-        return is_near
+        return inside >= self.bodies.thing_share * len(xyz)
 
     def _apart(self, near: Ints, offset_m: Floats, xyz: Floats, shown: Ints) -> tuple[Ints, Floats, Ints]:
         """Return (node, offset_m, part or -1) of stuff: one row per piece where a node has several around it."""

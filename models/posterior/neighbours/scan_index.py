@@ -47,13 +47,9 @@ class ScanNeighbourIndex:
     def build(
         cls, bodies: PointClouds, cells: CellTable, progress: Progress | None = None, rows: range | None = None
     ) -> "ScanNeighbourIndex":
-        """Build the index of a gallery, in several processes if it is large.
+        """Build the index of a gallery or of a range of its cells, in several processes if it is large.
 
-        Args:
-            bodies: the point clouds of the map.
-            cells: the gallery.
-            progress: called with instances done and to do.
-            rows: consecutive cells to build it for; None for all.
+        `progress` is called with instances done and to do.
         """
         scene, rows = np.unique(cells.scenes, return_inverse=True)[1], range(len(cells)) if rows is None else rows
         nodes, owner = grid(cells)
@@ -109,13 +105,11 @@ class ScanNeighbourIndex:
 
     def middles(self, centers_m: Floats) -> Ints:
         """As in `NeighbourIndex`."""
-        middles: Ints = central_nodes(self.cell_starts, np.zeros((len(centers_m), 2)), self.nodes_m, 1.0, centers_m)
-        return middles
+        return central_nodes(self.cell_starts, np.zeros((len(centers_m), 2)), self.nodes_m, 1.0, centers_m)
 
     def owner(self, nodes: Ints) -> Ints:
         """As in `NeighbourIndex`."""
-        owner: Ints = owner_of(self.cell_starts, nodes)
-        return owner
+        return owner_of(self.cell_starts, nodes)
 
     def around(self, nodes: Ints) -> Neighbours:
         """As in `NeighbourIndex`."""
@@ -169,5 +163,4 @@ def _parts_of(cells: CellTable, part_instance: Ints, owner: Ints, instance: Ints
     own = order[position]
     anywhere = np.full(count + 1, -1, dtype=np.int64)
     anywhere[part_instance[::-1]] = np.arange(len(part_instance))[::-1]
-    part: Ints = np.where(keys[own] == owner * count + known, own, anywhere[known])
-    return part
+    return np.where(keys[own] == owner * count + known, own, anywhere[known])

@@ -58,13 +58,9 @@ class Pieces:
 
 
 class PieceFinder:
-    """Finds the pieces of one instance.
+    """Finds the pieces of one instance with points [P, 3].
 
-    Args:
-        xyz: [P, 3] its points, metres.
-        parts: [S] rows of the cells' parts that show it, ascending, at least one.
-        cells: the gallery.
-        min_points: smaller pieces are ignored.
+    `parts` [S], ascending and at least one, are the cells' parts that show it; pieces below `min_points` are ignored.
     """
 
     def __init__(self, xyz: Floats, parts: Ints, cells: CellTable, min_points: float) -> None:
@@ -80,21 +76,14 @@ class PieceFinder:
         self._pixels = pixel[order[first]]
 
     def _pixel(self, xy: Floats) -> npt.NDArray[np.int64]:
-        pixel: npt.NDArray[np.int64] = np.floor((xy - self._low) / PIXEL_M).astype(np.int64)
-        return pixel
+        return np.floor((xy - self._low) / PIXEL_M).astype(np.int64)
 
     @cached_property
     def _nearest(self) -> cKDTree:
         return cKDTree(self._cells.parts.closest_m[self._parts])
 
     def around(self, nodes_m: Floats, tile: Ints, tiles: Tiles) -> Pieces:
-        """Return the pieces around nodes that have several; other nodes have no row.
-
-        Args:
-            nodes_m: [M, 3].
-            tile: [M] of each node.
-            tiles: of all nodes.
-        """
+        """Return the pieces around nodes [M, 3] in tiles [M]; nodes with only one piece have no row."""
         order = np.argsort(tile, kind="stable")
         numbers, first = np.unique(tile[order], return_index=True)
         nodes = np.split(order, first[1:])
@@ -149,5 +138,4 @@ class PieceFinder:
         starts, count = self._cells.parts.starts, self._cells.parts.count
         first, last = np.searchsorted(self._parts, [starts[cell], starts[cell + 1]])
         rows = self._parts[first:last]
-        ordered: Ints = rows[np.argsort(count[rows], kind="stable")]
-        return ordered
+        return rows[np.argsort(count[rows], kind="stable")]

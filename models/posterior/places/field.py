@@ -54,19 +54,11 @@ class PlaceEvidence:
         """Return log p(T | x) [M] of positions [M, 2]; `group` as `PlaceField.log_p`."""
         if not len(points_m):
             return np.zeros(0)
-        log_p: Floats = self._field.log_p(self.placed, points_m, group).double().numpy()
-        return log_p
+        return self._field.log_p(self.placed, points_m, group).double().numpy()
 
 
 class PlaceField:
-    """The likelihood of mentions on one map.
-
-    Args:
-        kernels: fitted.
-        gazetteer: of the map.
-        centers_m: [N, 2] of the cells.
-        spacing_m: of their grid.
-    """
+    """The likelihood of mentions on one map, whose cells have centres [N, 2] with a spacing."""
 
     def __init__(self, kernels: PlaceKernels, gazetteer: Gazetteer, centers_m: Floats, spacing_m: float) -> None:
         self.kernels, self.gazetteer, self._centers_m = kernels, gazetteer, centers_m

@@ -62,8 +62,7 @@ class PlaceKernels(nn.Module):
         """Return the density, 1 on average, of a direction by the cosine of its angle; nearby things may be in any."""
         kappa = concentration.exp() * metres / (metres + 4.0)
         slip = self.slip.sigmoid()
-        density: Tensor = (1 - slip) / torch.special.i0e(kappa) * torch.exp(kappa * (cosine - 1)) + slip
-        return density
+        return (1 - slip) / torch.special.i0e(kappa) * torch.exp(kappa * (cosine - 1)) + slip
 
     def standing(self, metres: Tensor) -> Tensor:
         """Return the log density, up to a constant, of people at distances from where people walk."""

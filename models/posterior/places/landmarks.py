@@ -54,8 +54,7 @@ class NameProbabilityTable:
         """Return the probability [N] of any of the names."""
         is_chosen = np.zeros(self.names, np.bool_)
         is_chosen[names] = True
-        total: Floats = _sums(self.starts, self.name, self.chance.view(np.uint16), HALVES, is_chosen)
-        return total
+        return _sums(self.starts, self.name, self.chance.view(np.uint16), HALVES, is_chosen)
 
     def columns(self, name: str) -> dict[str, Column]:
         """Return the arrays that `from_columns` reads."""
@@ -125,8 +124,7 @@ class Crossings:
         )
         everything = self.pairs.probability(np.arange(self.pairs.names))
         part, whole = np.where(any_on > 0, both, any_other), np.where(any_on > 0, any_on, everything)
-        probability: Floats = part / np.maximum(whole, 1e-300)
-        return probability
+        return part / np.maximum(whole, 1e-300)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -143,12 +141,9 @@ class Landmarks:
 
     @classmethod
     def build(cls, gazetteer: Gazetteer, centers_m: Floats, kinds: tuple[str, ...]) -> "Landmarks":
-        """Build the landmarks of a map.
+        """Build the landmarks of a map with cells at centres [N, 2].
 
-        Args:
-            gazetteer: of the map.
-            centers_m: [N, 2] of the cells.
-            kinds: prefixes of the kinds of places that people know by name.
+        `kinds` are prefixes of the kinds of places that people know by name.
         """
         words = gazetteer.objects
         roads = gazetteer.by_kind.get(STREET_KIND, np.zeros(0, np.int64))

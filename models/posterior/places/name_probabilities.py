@@ -25,12 +25,7 @@ Entries = tuple[Ints, Ints, Floats]  # rows, columns and values of a sparse tabl
 
 
 class NameProbabilities:
-    """The probabilities of names in the cells of a map.
-
-    Args:
-        gazetteer: of the map.
-        centers_m: [N, 2] of the cells.
-    """
+    """The probabilities of names in the cells of a map, by their centres [N, 2]."""
 
     def __init__(self, gazetteer: Gazetteer, centers_m: Floats) -> None:
         self._gazetteer, self._centers_m = gazetteer, centers_m
@@ -124,10 +119,8 @@ def _nearest(metres: csr_array) -> tuple[Ints, Floats]:
 
 def shares(cell: Ints, weight: Floats) -> Floats:
     """Normalize the weights of entries to a sum of 1 per cell."""
-    share: Floats = weight / np.bincount(cell, weight)[cell] if len(cell) else weight
-    return share
+    return weight / np.bincount(cell, weight)[cell] if len(cell) else weight
 
 
 def _is_legible(metres: Floats) -> Floats:
-    chance: Floats = 1 / (1 + np.exp(np.minimum((metres - LEGIBLE_M) / LEGIBLE_SOFT_M, 50.0)))
-    return chance
+    return 1 / (1 + np.exp(np.minimum((metres - LEGIBLE_M) / LEGIBLE_SOFT_M, 50.0)))
