@@ -11,7 +11,7 @@ from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.language.measures import compass_name
 
-STREET_REACH_M: Final = 30.0  # from a street's line; half of a wide street with its pavements
+STREET_REACH_M: Final = 30.0  # from a street's line; like the other reaches, not measured
 CORNER_REACH_M: Final = 18.0
 NAMED_REACH_M: Final = 60.0
 MAX_BLOCK_M: Final = 400.0

@@ -38,7 +38,7 @@ def posterior_of(nodes_m: np.ndarray, log_p: np.ndarray, starts: list[int], coar
         cells=SimpleNamespace(center_m=np.column_stack([center, np.zeros(len(center))]), size_m=30.0), extent_m=1e4,
         surroundings=SimpleNamespace(cell_starts=np.array(starts), positions_m=lambda nodes: nodes_m[nodes]),
         # As they stand, so that cells are looked at in this order.
-        cell_scores=lambda _reading, _some=None: -np.arange(len(starts) - 1.0),
+        cell_scores=lambda _reading, _cells=None: -np.arange(len(starts) - 1.0),
         cells_without_nodes=np.flatnonzero(np.diff(starts) == 0),
     )  # fmt: skip
 
@@ -49,30 +49,31 @@ def test_near_distances_are_right_on_a_map_of_many_kilometres() -> None:
     log_p = rng.normal(size=40)
     alone = locate(posterior_of(near, log_p, [0, 20, 40]), NOTHING)
     twice = posterior_of(np.concatenate([near, far + near]), np.concatenate([log_p, log_p - 1e-3]), [0, 20, 40, 60, 80])
-    found = locate(twice, NOTHING)
+    located = locate(twice, NOTHING)
     assert alone is not None
-    assert found is not None
-    assert found.rows.tolist() == [n for row in alone.rows for n in (row, row + 2)]
-    assert found.positions[0] == pytest.approx(alone.positions[0], abs=0.002)
-    assert found.positions[3] - far == pytest.approx(alone.positions[1], abs=0.002)
+    assert located is not None
+    assert located.rows.tolist() == [n for row in alone.rows for n in (row, row + 2)]
+    assert located.positions[0] == pytest.approx(alone.positions[0], abs=0.002)
+    assert located.positions[3] - far == pytest.approx(alone.positions[1], abs=0.002)
 
 
 def test_a_cell_that_a_prior_rules_out_has_no_mass_and_spoils_no_other() -> None:
     nodes_m = np.array([[0.0, 0], [1, 0], [30, 0], [31, 0], [60, 0]])
     posterior = posterior_of(nodes_m, np.array([0.0, 0.0, 0.0, 0.0, -1.0]), [0, 2, 4, 4, 5])
-    found = locate(
-        posterior, PositionEvidence(log_prior=lambda at: np.where(np.isin(at[:, 0], (30, 31)), -np.inf, 0.0))
+    located = locate(
+        posterior,
+        PositionEvidence(log_prior=lambda points_m: np.where(np.isin(points_m[:, 0], (30, 31)), -np.inf, 0.0)),
     )
-    assert found is not None
-    mass = dict(zip(found.rows.tolist(), found.score.tolist(), strict=True))
+    assert located is not None
+    mass = dict(zip(located.rows.tolist(), located.score.tolist(), strict=True))
     assert mass == pytest.approx({0: np.log(2), 1: -np.inf, 3: -1.0})
 
 
 def test_a_cell_without_a_coarse_node_is_looked_at_closely() -> None:
     nodes_m = np.array([[0.0, 0], [1, 0], [30, 0], [31, 0], [60, 0]])
-    found = locate(posterior_of(nodes_m, np.zeros(5), [0, 2, 4, 5], coarse=[0, 4]), NOTHING)
-    assert found is not None
-    assert dict(zip(found.rows.tolist(), found.score.tolist(), strict=True)) == pytest.approx(
+    located = locate(posterior_of(nodes_m, np.zeros(5), [0, 2, 4, 5], coarse=[0, 4]), NOTHING)
+    assert located is not None
+    assert dict(zip(located.rows.tolist(), located.score.tolist(), strict=True)) == pytest.approx(
         {0: np.log(2), 1: np.log(2), 2: 0.0}
     )
 
@@ -80,11 +81,11 @@ def test_a_cell_without_a_coarse_node_is_looked_at_closely() -> None:
 def test_a_cell_that_seemed_far_behind_and_is_not_is_looked_at_closely() -> None:
     nodes_m = np.array([[0.0, 0], [1, 0], [30, 0], [31, 0], [60, 0]])
     posterior = posterior_of(nodes_m, np.array([0.0, 0.0, 0.0, 0.0, -30.0]), [0, 2, 4, 5], coarse=[0, 2, 4])
-    posterior.cell_scores = lambda _reading, _some: np.array([0.0, -30.0, -5.0])
-    found = locate(posterior, SOMETHING)
+    posterior.cell_scores = lambda _reading, _cells: np.array([0.0, -30.0, -5.0])
+    located = locate(posterior, SOMETHING)
     assert posterior.grids == [{0: 2, 2: 2, 1: 4}, {0: 2, 1: 4}]
-    assert found is not None
-    assert dict(zip(found.rows.tolist(), found.score.tolist(), strict=True)) == pytest.approx(
+    assert located is not None
+    assert dict(zip(located.rows.tolist(), located.score.tolist(), strict=True)) == pytest.approx(
         {0: np.log(2), 1: np.log(2), 2: -30.0}
     )
 

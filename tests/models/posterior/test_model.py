@@ -30,9 +30,9 @@ def test_the_shipped_names_are_the_lexicons() -> None:
         bound = matcher.bind(MAP)
     assert stored.equal(matcher.names), "nothing was embedded anew"
     phrases, _ = matcher.lexicon.map_names_to_labels(MAP)
-    some = range(0, len(phrases), 40)
-    fresh = model.reader.text_encoder.embed([phrases[n].lower().replace("-", " ") for n in some])
-    assert ((bound.names[list(some)] * fresh).sum(dim=1) > 0.98).all(), "but for half precision, and layers in 8 bits"
+    part = range(0, len(phrases), 40)
+    fresh = model.reader.text_encoder.embed([phrases[n].lower().replace("-", " ") for n in part])
+    assert ((bound.names[list(part)] * fresh).sum(dim=1) > 0.98).all(), "but for half precision, and layers in 8 bits"
 
 
 def test_a_changed_lexicon_changes_the_fingerprint_and_is_embedded_anew(tmp_path, other_lexicon, caplog) -> None:

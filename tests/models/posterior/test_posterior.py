@@ -22,14 +22,14 @@ from models.training.posterior.training_sites import TrainingSite
 class Town:
     site: TrainingSite
     posterior: HintPosterior
-    readings: list[BoundHints]
+    bound_hints: list[BoundHints]
 
     def texts(self) -> SiteTexts:
-        return SiteTexts(self.site, np.arange(len(self.readings)), self.readings)
+        return SiteTexts(self.site, np.arange(len(self.bound_hints)), self.bound_hints)
 
 
 def exact(hints: Any, labels: tuple[str, ...], words: list[str]) -> BoundHints:
-    """A reading that knows what was said."""
+    """Return hints bound without doubt."""
     relation, label = torch.zeros(len(hints), len(RELATIONS)), torch.zeros(len(hints), len(labels))
     colour = torch.zeros(len(hints), len(words) + 1)
     for n, hint in enumerate(hints):
@@ -43,49 +43,49 @@ def exact(hints: Any, labels: tuple[str, ...], words: list[str]) -> BoundHints:
 def town(source) -> Town:
     place = TrainingSite.from_source(source, 25.0)
     words = colour_words(place.palette)
-    readings = [exact(hints, place.labels, words) for hints in place.hints]
-    return Town(place, place.posterior(Likelihood()), readings)
+    bound_hints = [exact(hints, place.labels, words) for hints in place.hints]
+    return Town(place, place.posterior(Likelihood()), bound_hints)
 
 
 def test_a_map_is_told_of_as_it_is_and_as_a_scan_shows_it(town, source) -> None:
-    told = [each.queries(VALIDATION_SEED, 25.0) for each in (source, source.as_scan())]
-    assert town.site.hints == [hints for queries in told for hints in queries.hints]
+    queries_of_sources = [each.queries(VALIDATION_SEED, 25.0) for each in (source, source.as_scan())]
+    assert town.site.hints == [hints for queries in queries_of_sources for hints in queries.hints]
 
 
 def all_nodes_m(town):
-    """[M, 2] where the nodes are."""
+    """Return the positions [M, 2] of all nodes."""
     return town.site.surroundings.positions_m(np.arange(town.site.surroundings.cell_starts[-1]))
 
 
 def test_the_field_is_the_likelihood_of_its_nodes(town):
     cells = np.array([3, 40, 11])
-    for reading in town.readings[:3]:
-        field = town.posterior.field(PositionEvidence(reading), cells)
+    for hints in town.bound_hints[:3]:
+        field = town.posterior.field(PositionEvidence(hints), cells)
         nodes, around = nodes_of_cells(town.site, cells)
         assert (field.nodes == nodes).all()
         with torch.no_grad():
-            direct = town.posterior.likelihood(reading, around, town.site.palette, town.posterior.mean_statements)
+            direct = town.posterior.likelihood(hints, around, town.site.palette, town.posterior.mean_statements)
         assert np.allclose(field.log_p, direct.numpy(), atol=1e-3)
 
 
 def test_the_mass_of_a_likely_cell_is_that_of_all_its_nodes(town):
-    for reading in town.readings[:5]:
-        found = locate(town.posterior, PositionEvidence(reading))
-        likely = int((found.score > found.score[0] - 5).sum())
-        field = town.posterior.field(PositionEvidence(reading), found.rows[:likely])
+    for hints in town.bound_hints[:5]:
+        located = locate(town.posterior, PositionEvidence(hints))
+        likely = int((located.score > located.score[0] - 5).sum())
+        field = town.posterior.field(PositionEvidence(hints), located.rows[:likely])
         mass = [np.logaddexp.reduce(field.log_p[field.cell == n]) for n in range(likely)]
-        assert np.allclose(found.score[:likely], mass, atol=1e-3)
-        assert np.isin(field.nodes, found.points).all()
-        assert len(np.unique(found.points)) == len(found.points)
+        assert np.allclose(located.score[:likely], mass, atol=1e-3)
+        assert np.isin(field.nodes, located.points).all()
+        assert len(np.unique(located.points)) == len(located.points)
 
 
 def test_descriptions_are_found_where_they_were_said(town):
     hits, near, candidates = [], [], []
-    for q, reading in enumerate(town.readings[:60]):
-        found = locate(town.posterior, PositionEvidence(reading))
-        hits.append(found.rows[0] == town.site.truth[q])
-        near.append(np.linalg.norm(found.positions[0] - town.site.positions_m[q]) <= 5)
-        scores = town.posterior.cell_scores(reading)
+    for q, hints in enumerate(town.bound_hints[:60]):
+        located = locate(town.posterior, PositionEvidence(hints))
+        hits.append(located.rows[0] == town.site.truth[q])
+        near.append(np.linalg.norm(located.positions[0] - town.site.positions_m[q]) <= 5)
+        scores = town.posterior.cell_scores(hints)
         candidates.append((scores > scores[town.site.truth[q]]).sum() < 50)
     assert np.mean(candidates) > 0.95
     assert np.mean(hits) > 0.4, "a repetitive toy town; chance is 1 in some hundreds"
@@ -93,23 +93,23 @@ def test_descriptions_are_found_where_they_were_said(town):
 
 
 def test_probabilities_add_up_and_radii_are_in_order(town):
-    for reading in town.readings[:20]:
-        found = locate(town.posterior, PositionEvidence(reading), candidates=30)
-        assert found.probability.sum() + found.other == pytest.approx(1.0)
-        assert found.weight.sum() + found.other == pytest.approx(1.0)
-        assert (np.diff(found.score) <= 1e-12).all()
-        p50, p90 = found.radii_m(0.5, 0.9)
-        assert 0 < p50 <= p90 <= found.extent_m
-        eigenvalues = np.linalg.eigvalsh(found.covariance_m2())
+    for hints in town.bound_hints[:20]:
+        located = locate(town.posterior, PositionEvidence(hints), candidates=30)
+        assert located.probability.sum() + located.other == pytest.approx(1.0)
+        assert located.weight.sum() + located.other == pytest.approx(1.0)
+        assert (np.diff(located.score) <= 1e-12).all()
+        p50, p90 = located.radii_m(0.5, 0.9)
+        assert 0 < p50 <= p90 <= located.extent_m
+        eigenvalues = np.linalg.eigvalsh(located.covariance_m2())
         assert (eigenvalues > 0).all()
 
 
 def test_cells_found_in_another_way_count_once(town):
     cells = np.arange(len(town.posterior.cells))
-    for reading in town.readings[:10]:
-        some, whole = (locate(town.posterior, PositionEvidence(reading), candidates=n) for n in (20, len(cells)))
-        joined = locate(town.posterior, PositionEvidence(reading), candidates=20, extra_cells=cells)
-        assert some.other > 0
+    for hints in town.bound_hints[:10]:
+        part, whole = (locate(town.posterior, PositionEvidence(hints), candidates=n) for n in (20, len(cells)))
+        joined = locate(town.posterior, PositionEvidence(hints), candidates=20, extra_cells=cells)
+        assert part.other > 0
         assert joined.other == whole.other == 0
         assert joined.rows.tolist() == whole.rows.tolist()
         assert np.allclose(joined.probability, whole.probability)
@@ -118,9 +118,9 @@ def test_cells_found_in_another_way_count_once(town):
 
 def test_each_candidate_has_a_position_of_its_own(town):
     surroundings = town.posterior.surroundings
-    for reading in town.readings[:20]:
-        found = locate(town.posterior, PositionEvidence(reading))
-        for row, position in zip(found.rows[1:], found.positions[1:], strict=True):
+    for hints in town.bound_hints[:20]:
+        located = locate(town.posterior, PositionEvidence(hints))
+        for row, position in zip(located.rows[1:], located.positions[1:], strict=True):
             own = surroundings.positions_m(np.arange(surroundings.cell_starts[row], surroundings.cell_starts[row + 1]))
             assert np.linalg.norm(own - position, axis=1).min() < 2 * MEAN_RADIUS_M
 
@@ -128,17 +128,17 @@ def test_each_candidate_has_a_position_of_its_own(town):
 def test_a_prior_may_rule_places_out(town):
     east = np.median(all_nodes_m(town)[:, 0])
     prior = PositionEvidence(
-        town.readings[0], log_prior=lambda positions_m: np.where(positions_m[:, 0] > east, 0.0, -np.inf)
+        town.bound_hints[0], log_prior=lambda positions_m: np.where(positions_m[:, 0] > east, 0.0, -np.inf)
     )
-    found = locate(town.posterior, prior)
-    assert found.positions[0, 0] > east
-    assert found.probability.sum() + found.other == pytest.approx(1.0)
+    located = locate(town.posterior, prior)
+    assert located.positions[0, 0] > east
+    assert located.probability.sum() + located.other == pytest.approx(1.0)
 
 
 def test_cells_far_behind_may_be_looked_at_roughly(town, monkeypatch):
-    rough = [locate(town.posterior, PositionEvidence(reading)) for reading in town.readings[:30]]
+    rough = [locate(town.posterior, PositionEvidence(hints)) for hints in town.bound_hints[:30]]
     monkeypatch.setattr(locate_module, "MAX_GAP_NATS", np.inf)
-    exact = [locate(town.posterior, PositionEvidence(reading)) for reading in town.readings[:30]]
+    exact = [locate(town.posterior, PositionEvidence(hints)) for hints in town.bound_hints[:30]]
     assert any(len(a.points) < len(b.points) for a, b in zip(rough, exact, strict=True)), "some cells are left rough"
     for a, b in zip(rough, exact, strict=True):
         assert a.rows[0] == b.rows[0]
@@ -147,9 +147,9 @@ def test_cells_far_behind_may_be_looked_at_roughly(town, monkeypatch):
 
 
 def test_one_hint_leaves_much_open(town):
-    whole = town.readings[0]
+    whole = town.bound_hints[0]
     one = BoundHints(whole.relation[:1], whole.label[:1], whole.colour[:1], whole.distance_m[:1], whole.absent[:1])
-    wide, narrow = (locate(town.posterior, PositionEvidence(reading)) for reading in (one, whole))
+    wide, narrow = (locate(town.posterior, PositionEvidence(hints)) for hints in (one, whole))
     assert wide.probability[0] < narrow.probability[0]
     assert wide.other > narrow.other
     assert wide.radii_m(0.9) > narrow.radii_m(0.9)
@@ -159,17 +159,17 @@ def test_a_filter_is_exact(town):
     nodes_m = all_nodes_m(town)
     for q in range(0, 30, 3):
         truth = town.site.positions_m[q]
-        held = np.abs(nodes_m - truth).max(axis=1) <= 20.0
-        cells = np.repeat(np.arange(len(town.site.cells)), np.diff(town.site.surroundings.cell_starts))[held]
+        is_inside = np.abs(nodes_m - truth).max(axis=1) <= 20.0
+        cells = np.repeat(np.arange(len(town.site.cells)), np.diff(town.site.surroundings.cell_starts))[is_inside]
         has_one = np.bincount(cells, minlength=len(town.site.cells)) > 0
         area = AreaFilter(has_one, lambda points_m, truth=truth: np.abs(points_m - truth).max(axis=1) <= 20.0)
-        found = locate(town.posterior, PositionEvidence(town.readings[q], area=area), candidates=10)
-        assert (np.abs(found.points_m - truth).max(axis=1) <= 20.0).all()
-        every = locate(town.posterior, PositionEvidence(town.readings[q], area=area), candidates=10_000)
-        assert found.rows[0] == every.rows[0]
+        located = locate(town.posterior, PositionEvidence(town.bound_hints[q], area=area), candidates=10)
+        assert (np.abs(located.points_m - truth).max(axis=1) <= 20.0).all()
+        every = locate(town.posterior, PositionEvidence(town.bound_hints[q], area=area), candidates=10_000)
+        assert located.rows[0] == every.rows[0]
         assert set(every.rows.tolist()) == set(cells.tolist()), "nothing inside is lost"
     nowhere = AreaFilter(np.zeros(len(town.site.cells), np.bool_), lambda points_m: np.zeros(len(points_m), np.bool_))
-    assert locate(town.posterior, PositionEvidence(town.readings[0], area=nowhere)) is None
+    assert locate(town.posterior, PositionEvidence(town.bound_hints[0], area=nowhere)) is None
 
 
 def test_a_prior_is_multiplied_in(town):
@@ -178,13 +178,13 @@ def test_a_prior_is_multiplied_in(town):
     def log_prior(positions_m):
         return -((positions_m - center) ** 2).sum(axis=1) / (2 * 6.0**2)
 
-    cells, reading = np.arange(len(town.site.cells)), town.readings[5]
+    cells, hints = np.arange(len(town.site.cells)), town.bound_hints[5]
     plain, biased = (
-        town.posterior.field(PositionEvidence(reading, log_prior=prior), cells) for prior in (None, log_prior)
+        town.posterior.field(PositionEvidence(hints, log_prior=prior), cells) for prior in (None, log_prior)
     )
     assert np.allclose(biased.log_p - plain.log_p, log_prior(town.posterior.surroundings.positions_m(plain.nodes)))
-    found = locate(town.posterior, PositionEvidence(town.readings[5], log_prior=log_prior))
-    assert np.linalg.norm(found.positions[0] - center) < 20.0
+    located = locate(town.posterior, PositionEvidence(town.bound_hints[5], log_prior=log_prior))
+    assert np.linalg.norm(located.positions[0] - center) < 20.0
 
 
 def test_the_instance_that_was_meant_explains_a_hint(town, city, cells):
@@ -192,19 +192,24 @@ def test_the_instance_that_was_meant_explains_a_hint(town, city, cells):
     right = total = 0
     for q in range(0, 60, 3):
         node = int(np.linalg.norm(all_nodes_m(town) - town.site.positions_m[q], axis=1).argmin())
-        for hint, found in zip(town.site.hints[q], town.posterior.explain(town.readings[q], node), strict=True):
+        for hint, explanation in zip(
+            town.site.hints[q], town.posterior.explain(town.bound_hints[q], node), strict=True
+        ):
             total += 1
-            meant = found.part >= 0 and town.site.surroundings.objects.instance[found.part] == number[hint.instance_id]
-            right += meant and found.probability > 0.5
+            meant = (
+                explanation.part >= 0
+                and town.site.surroundings.objects.instance[explanation.part] == number[hint.instance_id]
+            )
+            right += meant and explanation.probability > 0.5
     assert right / total > 0.7, "things alike stand side by side in this town"
 
 
 def test_what_fits_only_because_a_label_may_be_wrong_does_not_explain(town):
     node = int(np.linalg.norm(all_nodes_m(town) - town.site.positions_m[0], axis=1).argmin())
-    doubted = replace(town.readings[0], label=0.05 * town.readings[0].label)
+    doubted = replace(town.bound_hints[0], label=0.05 * town.bound_hints[0].label)
     surely, hardly = (
-        np.array([found.probability for found in town.posterior.explain(reading, node)])
-        for reading in (town.readings[0], doubted)
+        np.array([explanation.probability for explanation in town.posterior.explain(hints, node)])
+        for hints in (town.bound_hints[0], doubted)
     )
     assert surely.max() > 0.5
     assert hardly.max() <= 2 * 0.05 + 1e-6
@@ -215,12 +220,12 @@ def test_fitting_makes_the_truth_likelier(town):
     texts, cells = town.texts(), np.arange(0, len(town.site.cells), 3)
 
     def surprised(likelihood):
-        asked = [np.union1d(cells, town.site.truth[q : q + 1]) for q in range(0, 40, 4)]
+        cell_sets = [np.union1d(cells, town.site.truth[q : q + 1]) for q in range(0, 40, 4)]
         with torch.no_grad():
             return np.mean(
                 [
-                    float(negative_log_density(likelihood, texts, 4 * n, some, town.posterior.mean_statements))
-                    for n, some in enumerate(asked)
+                    float(negative_log_density(likelihood, texts, 4 * n, part, town.posterior.mean_statements))
+                    for n, part in enumerate(cell_sets)
                 ]
             )
 

@@ -51,14 +51,14 @@ def test_errors_are_shared_by_the_other_answers():
     assert chance[0] == pytest.approx([1 - WRONG_REPLY_SHARE, WRONG_REPLY_SHARE / 2, WRONG_REPLY_SHARE / 2])
 
 
-@pytest.mark.parametrize(("names", "some"), [(30, 1.0), (30, 0.4), (2, 0.5), (500, 0.02)])
-def test_what_a_name_leaves_is_that_of_all_names(names, some):
+@pytest.mark.parametrize(("names", "part"), [(30, 1.0), (30, 0.4), (2, 0.5), (500, 0.02)])
+def test_what_a_name_leaves_is_that_of_all_names(names, part):
     """Against all of K names and "I don't know", which changes nothing, from the definition."""
     rng = np.random.default_rng(0)
     mass = rng.dirichlet(np.ones(20))
     mass[3] = 0.0
     mass /= mass.sum()
-    true = rng.random((20, names)) * (rng.random((20, names)) < some)
+    true = rng.random((20, names)) * (rng.random((20, names)) < part)
     true[5:8] = 0.0  # nothing to say there
     true /= np.maximum(1.0, true.sum(axis=1, keepdims=True) / rng.uniform(0.5, 1.0, (20, 1)))
     chance = name_with_errors(true, names)

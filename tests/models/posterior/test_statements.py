@@ -13,7 +13,7 @@ from models.posterior.statements import _SECTOR_OF_RELATION, FILE, MIN_HINT_SHAR
 
 @pytest.fixture(scope="module")
 def given(source):
-    """What statements are made of: surroundings, labels, colours and the words for them."""
+    """Return the arguments of `statement_rows`."""
     surroundings = build_neighbour_index(source.geometry(), source.data.cells)
     rgb, likelihood = torch.from_numpy(surroundings.objects.rgb), Likelihood()
     label = torch.from_numpy(surroundings.objects.labels(source.data.gallery)[1])
@@ -59,20 +59,22 @@ def test_scores_are_those_of_a_naive_sum(statements, cells_per_slice, monkeypatc
     relation, label, colour = (torch.from_numpy(rng.dirichlet([0.3] * n, 3)).float() for n in (10, labels, words + 1))
     absent = torch.tensor([0.0, 0.2, 1.0])
     reading = BoundHints(relation, label, colour, torch.full((3,), torch.nan), absent)
-    found = statements.scores(reading)
+    scores = statements.scores(reading)
     of_sector = relation @ _SECTOR_OF_RELATION
     holds, naive = _holds(statements).toarray(), np.full((holds_rows := statements.cells, 3), MIN_HINT_SHARE)
-    for n, (of, word, sector) in enumerate(zip(statements.label, statements.word, statements.sector, strict=True)):
-        said = 0.3 * torch.ones(3) if word == words else colour[:, word] + colour[:, words]
-        naive += holds[:, [n]] * (label[:, of] * said * of_sector[:, sector]).numpy()
+    for n, (class_number, word, sector) in enumerate(
+        zip(statements.label, statements.word, statements.sector, strict=True)
+    ):
+        is_stated = 0.3 * torch.ones(3) if word == words else colour[:, word] + colour[:, words]
+        naive += holds[:, [n]] * (label[:, class_number] * is_stated * of_sector[:, sector]).numpy()
     truth = np.log(naive) @ (1 - absent.numpy())
-    assert len(found) == holds_rows
-    assert found == pytest.approx(truth, abs=0.2), "but for what is faint"
-    assert np.abs(found - truth).mean() < 0.02 < truth.std()
-    for some in (range(3, 12), range(20, 21), range(5, statements.cells), range(0)):
-        alone = statements.scores(reading, some)
-        assert (alone[some.start : some.stop] == found[some.start : some.stop]).all()
-        assert np.isneginf(np.delete(alone, some)).all()
+    assert len(scores) == holds_rows
+    assert scores == pytest.approx(truth, abs=0.2), "but for what is faint"
+    assert np.abs(scores - truth).mean() < 0.02 < truth.std()
+    for subset in (range(3, 12), range(20, 21), range(5, statements.cells), range(0)):
+        alone = statements.scores(reading, subset)
+        assert (alone[subset.start : subset.stop] == scores[subset.start : subset.stop]).all()
+        assert np.isneginf(np.delete(alone, subset)).all()
 
 
 def test_several_processes_make_what_one_makes(given, statements, monkeypatch) -> None:

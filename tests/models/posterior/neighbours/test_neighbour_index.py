@@ -30,9 +30,9 @@ def around(source, cells):
 def test_nodes_are_the_same_however_many_columns_are_looked_at(around, monkeypatch):
     cells, bodies, expected = around
     monkeypatch.setattr(nodes_module, "COLUMNS_PER_SLICE", 7)
-    found = build_neighbour_index(bodies, cells)
-    assert np.array_equal(found.offset, expected.offset)
-    assert np.array_equal(found.cell_starts, expected.cell_starts)
+    again = build_neighbour_index(bodies, cells)
+    assert np.array_equal(again.offset, expected.offset)
+    assert np.array_equal(again.cell_starts, expected.cell_starts)
 
 
 def test_ground_of_a_map_is_vague_and_a_scan_is_told_of_by_its_points(source, around, scanned) -> None:
@@ -76,22 +76,22 @@ def test_ways_are_those_of_a_naive_search(scanned, scan) -> None:
     owner = np.repeat(np.arange(len(cells)), np.diff(s.cell_starts))
     shown = set(bodies.part_instances.tolist())
     for node in np.random.default_rng(0).choice(len(s.nodes_m), 12, replace=False):
-        at = np.array([*s.nodes_m[node], cells.center_m[owner[node], 2]])
+        node_m = np.array([*s.nodes_m[node], cells.center_m[owner[node], 2]])
         naive = {}
         for i in range(len(scan.instances)):
             xyz = bodies.xyz[bodies.starts[i] : bodies.starts[i + 1]]
-            distance = np.linalg.norm(xyz - at, axis=1)
-            way = at[:2] - xyz[distance.argmin(), :2]
-            if i in shown and np.hypot(*way) <= 15.0 and distance.min() <= 30.0:
-                inside = (np.abs(xyz[:, :2] - at[:2]) <= cells.size_m / 2).all(axis=1).sum()
+            distance = np.linalg.norm(xyz - node_m, axis=1)
+            offset_m = node_m[:2] - xyz[distance.argmin(), :2]
+            if i in shown and np.hypot(*offset_m) <= 15.0 and distance.min() <= 30.0:
+                inside = (np.abs(xyz[:, :2] - node_m[:2]) <= cells.size_m / 2).all(axis=1).sum()
                 large = np.ptp(xyz[:, :2], axis=0).max() > 8.0
                 whole = not (bodies.is_thing[i] and large) or inside >= scan.rules.thing_share * len(xyz)
-                naive[i] = np.hypot(*way), whole
+                naive[i] = np.hypot(*offset_m), whole
         rows = slice(s.starts[node], s.starts[node + 1])
         instances = bodies.part_instances[s.part[rows]].tolist()
         assert sorted(instances) == sorted(naive)
-        for i, way, whole in zip(instances, s.offset[rows], s.whole[rows], strict=True):
-            assert np.hypot(*(way * STEP_M)) == pytest.approx(naive[i][0], abs=STEP_M)
+        for i, offset_m, whole in zip(instances, s.offset[rows], s.whole[rows], strict=True):
+            assert np.hypot(*(offset_m * STEP_M)) == pytest.approx(naive[i][0], abs=STEP_M)
             assert whole == naive[i][1]
 
 
@@ -113,15 +113,15 @@ def test_rows_are_sorted_and_parts_are_of_the_owner_where_it_has_them(scanned) -
 def test_taking_cells_keeps_their_nodes_and_what_they_show(kind, request) -> None:
     cells, s = request.getfixturevalue(kind)[::2]
     chosen = np.array([7, 2, 30])
-    some = s.take(chosen, count_parts(s.objects, cells, chosen))
+    subset = s.take(chosen, count_parts(s.objects, cells, chosen))
     of_chosen = np.concatenate([np.arange(s.cell_starts[c], s.cell_starts[c + 1]) for c in chosen])
-    assert (nodes_of(some) == s.positions_m(of_chosen)).all()
-    assert np.diff(some.cell_starts).tolist() == np.diff(s.cell_starts)[chosen].tolist()
-    before, after = s.around(of_chosen), some.around(np.arange(len(of_chosen)))
-    kept = some.objects.parts[before.part] > 0
-    assert 0 < kept.sum() < len(kept)
+    assert (nodes_of(subset) == s.positions_m(of_chosen)).all()
+    assert np.diff(subset.cell_starts).tolist() == np.diff(s.cell_starts)[chosen].tolist()
+    before, after = s.around(of_chosen), subset.around(np.arange(len(of_chosen)))
+    is_kept = subset.objects.parts[before.part] > 0
+    assert 0 < is_kept.sum() < len(is_kept)
     for name in ("node", "part", "offset", "whole"):
-        assert (getattr(before, name)[kept] == getattr(after, name)).all()
+        assert (getattr(before, name)[is_kept] == getattr(after, name)).all()
 
 
 @pytest.mark.parametrize("kind", ["around", "scanned"])
@@ -151,11 +151,11 @@ def test_what_is_around_nodes_does_not_depend_on_which_are_asked_for(around) -> 
         [np.arange(s.cell_starts[c], s.cell_starts[c + 1]) for c in rng.permutation(len(cells))[:9]]
     )
     chosen = chosen[rng.random(len(chosen)) < 0.4]
-    some = s.around(chosen)
+    subset = s.around(chosen)
     for n, node in enumerate(chosen):
-        ours, theirs = some.node == n, every.node == node
+        ours, theirs = subset.node == n, every.node == node
         for name in ("part", "offset"):
-            assert (getattr(some, name)[ours] == getattr(every, name)[theirs]).all()
+            assert (getattr(subset, name)[ours] == getattr(every, name)[theirs]).all()
     nothing = s.around(chosen[:0])
     assert len(nothing.node) == 0
 

@@ -31,8 +31,8 @@ def street(*pieces: tuple[np.ndarray, np.ndarray]) -> tuple[CityMap, MapSource]:
     pole = np.array([[0, 0, z] for z in np.arange(0, 5, 0.1)], dtype=np.float32)
     instances = Instance(8000, "sidewalk", *joined), Instance(17001, "pole", pole)
     rules = CutRules(min_instances=1)
-    at = np.array([[x, 0.0, 0.0] for x in np.arange(-30, 31, 5)])
-    city = CityMap("street", instances, frozenset({"sidewalk"}), at, rules=rules)
+    positions_m = np.array([[x, 0.0, 0.0] for x in np.arange(-30, 31, 5)])
+    city = CityMap("street", instances, frozenset({"sidewalk"}), positions_m, rules=rules)
     bodies = build_geometry(city)
     return city, MapSource(Path("street"), city, bodies, cut_cells(city, bodies))
 
@@ -42,17 +42,16 @@ def rows_at(around: ScanNeighbourIndex, source: MapSource, x: float, y: float) -
     node = ((around.nodes_m - [x, y]) ** 2).sum(axis=1).argmin()
     rows = np.arange(around.starts[node], around.starts[node + 1])
     is_sidewalk = source.geometry().part_instances[around.part[rows]] == 0
-    found: np.ndarray = rows[is_sidewalk]
-    return found
+    return rows[is_sidewalk]
 
 
 def test_both_sidewalks_are_known_between_them() -> None:
     _, source = street()
     around = ScanNeighbourIndex.build(source.geometry(), source.data.cells)
     rows = rows_at(around, source, 0.0, 1.5)
-    way = around.offset[rows] * STEP_M
-    assert way[:, 1] == pytest.approx([1.5 - ROAD_M / 2, 1.5 + ROAD_M / 2 + 0.25], abs=2 * STEP_M)
-    assert np.abs(way[:, 0]) == pytest.approx([0, 0], abs=0.25 + STEP_M)
+    offset_m = around.offset[rows] * STEP_M
+    assert offset_m[:, 1] == pytest.approx([1.5 - ROAD_M / 2, 1.5 + ROAD_M / 2 + 0.25], abs=2 * STEP_M)
+    assert np.abs(offset_m[:, 0]) == pytest.approx([0, 0], abs=0.25 + STEP_M)
     assert around.whole[rows].all()
     shown = source.data.cells.parts
     owner = np.repeat(np.arange(len(source.data.cells)), np.diff(around.cell_starts))

@@ -24,7 +24,7 @@ def addresses():
 
 
 @pytest.mark.parametrize(
-    ("said", "meant"),
+    ("address", "meant"),
     [
         ("12 Bulevardi", ["12 Bulevardi"]),
         ("bulevardi 12", ["12 Bulevardi"]),
@@ -48,8 +48,8 @@ def addresses():
         ("", []),
     ],
 )
-def test_what_people_say(addresses, said, meant):
-    assert [addresses.shown[n] for n in addresses.find(said)] == meant
+def test_what_people_say(addresses, address, meant):
+    assert [addresses.shown[n] for n in addresses.find(address)] == meant
 
 
 def test_houses_of_one_address_share_a_column(addresses):

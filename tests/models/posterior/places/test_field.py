@@ -76,13 +76,13 @@ def test_headings_are_clockwise_from_north(field, angle, heading) -> None:
 
 
 def test_an_angle_that_is_not_sure_is_summed_over(field) -> None:
-    elmo, at = numbered(TOWN, "Elmo"), np.array([[120.0, 120.0]])
+    elmo, points_m = numbered(TOWN, "Elmo"), np.array([[120.0, 120.0]])
     either = Cue(angle=-90.0, angles=((-90.0, 0.6), (90.0, 0.4)))
     shares = []
     for cue in (Cue(angle=-90.0), Cue(angle=90.0), either):
         placed = field.evidence([thing("Elmo", cue=cue), thing("T-Optik", cue=Cue("at"))]).placed
         with torch.inference_mode():
-            ways = field.closest_points(placed.mentions[0], PointGroups.from_groups(at, np.zeros(1, np.int64)))
+            ways = field.closest_points(placed.mentions[0], PointGroups.from_groups(points_m, np.zeros(1, np.int64)))
             shares.append(field.fits(placed.mentions[0], ways, 1)[0])
     assert placed.mentions[0].objects.tolist() == [elmo]
     assert torch.allclose(shares[2], 0.6 * shares[0] + 0.4 * shares[1], atol=1e-6)
@@ -96,10 +96,10 @@ def test_people_stand_where_they_walk() -> None:
     )
     field = PlaceField(PlaceKernels(), town, CENTERS, GRID_M)
     bench = Mention("bench", 0, 1, "thing", np.array([0]), np.ones(1), kinds=("amenity/bench",), cue=Cue("beside"))
-    beside = np.array([(100.0, 110.0), (100.0, 90.0)])  # as far from the bench
-    walks, other = field.evidence([bench]).log_p(beside, np.zeros(2, np.int64))
+    near_bench = np.array([(100.0, 110.0), (100.0, 90.0)])  # as far from the bench
+    walks, other = field.evidence([bench]).log_p(near_bench, np.zeros(2, np.int64))
     assert walks > other + 1
-    walks, other = field.evidence([bench], is_meeting=True).log_p(beside, np.zeros(2, np.int64))
+    walks, other = field.evidence([bench], is_meeting=True).log_p(near_bench, np.zeros(2, np.int64))
     assert walks == pytest.approx(other, abs=1e-5), "where to meet may be anywhere"
 
 
@@ -111,8 +111,8 @@ def test_a_wind_tells_the_side(field) -> None:
 
 def test_a_distance_is_a_ring(field) -> None:
     evidence = field.evidence([thing("Elmo", cue=Cue(measure=Measure(0, 4, 50.0)))])
-    at = np.array([(120.0, 143.0), (120.0, 98.0), (120.0, 18.0)])
-    near, there, far = evidence.log_p(at, np.zeros(3, np.int64))
+    points_m = np.array([(120.0, 143.0), (120.0, 98.0), (120.0, 18.0)])
+    near, there, far = evidence.log_p(points_m, np.zeros(3, np.int64))
     assert there > near
     assert there > far
 
@@ -121,7 +121,9 @@ def test_rare_things_tell_more_than_common_ones(field) -> None:
     benches = np.array([n for n, words in enumerate(TOWN.objects) if words.kinds == ("amenity/bench",)])
     assert len(benches) == len(BENCHES)
     bench = Mention("bench", 0, 1, "thing", benches, np.ones(len(benches)), kinds=("amenity/bench",), cue=Cue("near"))
-    common, rare = (field.evidence([some]).log_p(NODES, ANYWHERE) for some in (bench, thing("Elmo", cue=Cue("near"))))
+    common, rare = (
+        field.evidence([mention]).log_p(NODES, ANYWHERE) for mention in (bench, thing("Elmo", cue=Cue("near")))
+    )
     assert np.ptp(common) < np.ptp(rare) / 2
     assert common.max() < rare.max() / 2
 
@@ -129,7 +131,7 @@ def test_rare_things_tell_more_than_common_ones(field) -> None:
 def test_what_is_everywhere_tells_nothing() -> None:
     grid = NODES[::5]
     everywhere = build_gazetteer(
-        [GazetteerObject(("natural/tree",))] * len(grid), [point(*at) for at in grid], [False] * len(grid)
+        [GazetteerObject(("natural/tree",))] * len(grid), [point(*position) for position in grid], [False] * len(grid)
     )
     field = PlaceField(PlaceKernels(), everywhere, CENTERS, GRID_M)
     tree = Mention("tree", 0, 1, "thing", np.arange(len(grid)), np.ones(len(grid)), kinds=("natural/tree",))
@@ -139,12 +141,12 @@ def test_what_is_everywhere_tells_nothing() -> None:
 
 
 def test_the_north_side_of_a_street(field) -> None:
-    at = np.array([(100.0, 92.0), (100.0, 68.0)])
-    north, south = field.evidence([street("West 25th Street", side=0.0)]).log_p(at, np.zeros(2, np.int64))
+    points_m = np.array([(100.0, 92.0), (100.0, 68.0)])
+    north, south = field.evidence([street("West 25th Street", side=0.0)]).log_p(points_m, np.zeros(2, np.int64))
     assert north - south > 1
-    north, south = field.evidence([street("West 25th Street", side=180.0)]).log_p(at, np.zeros(2, np.int64))
+    north, south = field.evidence([street("West 25th Street", side=180.0)]).log_p(points_m, np.zeros(2, np.int64))
     assert south - north > 1
-    north, south = field.evidence([street("West 25th Street")]).log_p(at, np.zeros(2, np.int64))
+    north, south = field.evidence([street("West 25th Street")]).log_p(points_m, np.zeros(2, np.int64))
     assert north == pytest.approx(south, abs=1e-3)
 
 
@@ -153,8 +155,8 @@ def test_the_wind_from_a_listener(field) -> None:
     east, west, north = evidence.log_p(np.array([(300.0, 80.0), (100.0, 80.0), (200.0, 180.0)]), np.zeros(3, np.int64))
     assert east > north > west
     assert east - west > 2
-    at = [np.hypot(*(CENTERS - place).T).argmin() for place in ((300, 80), (100, 80))]
-    assert evidence.cell_log_p[at[0]] - evidence.cell_log_p[at[1]] == pytest.approx(east - west, abs=0.2)
+    cells = [np.hypot(*(CENTERS - place).T).argmin() for place in ((300, 80), (100, 80))]
+    assert evidence.cell_log_p[cells[0]] - evidence.cell_log_p[cells[1]] == pytest.approx(east - west, abs=0.2)
     assert not field.evidence([], np.array([200.0, 80.0])).cell_log_p.any(), "no wind, no news"
     assert not field.evidence([], None, 90.0).cell_log_p.any()
 
@@ -195,10 +197,10 @@ def test_answers_do_not_depend_on_the_grouping(field) -> None:
 
 
 def test_more_that_fits_makes_a_place_likelier(field) -> None:
-    at, group = np.array([[200.0, 80.0]]), np.zeros(1, np.int64)
-    one = field.evidence([corner(200, 80)]).log_p(at, group)
-    two = field.evidence([corner(200, 80), thing("Bottino", cue=Cue("near"))]).log_p(at, group)
-    wrong = field.evidence([corner(200, 80), thing("Duane Reade", cue=Cue("near"))]).log_p(at, group)
+    points_m, group = np.array([[200.0, 80.0]]), np.zeros(1, np.int64)
+    one = field.evidence([corner(200, 80)]).log_p(points_m, group)
+    two = field.evidence([corner(200, 80), thing("Bottino", cue=Cue("near"))]).log_p(points_m, group)
+    wrong = field.evidence([corner(200, 80), thing("Duane Reade", cue=Cue("near"))]).log_p(points_m, group)
     assert two > one > wrong
     assert one - wrong < 3, "one thing that is wrong does not rule a place out"
 
@@ -217,11 +219,11 @@ def test_the_weightier_of_two_is_likelier(field) -> None:
     assert elmo > bottino > 0
 
 
-def test_a_mention_is_explained_by_what_is_near(field) -> None:
+def test_a_mentionis_explained_by_what_is_near(field) -> None:
     mention = thing("Elmo", "Bottino", cue=Cue("beside"))
     placed = field.evidence([mention]).placed
-    at = np.array([[215.0, 95.0]])
-    [explained] = field.explain(placed, at)
+    points_m = np.array([[215.0, 95.0]])
+    [explained] = field.explain(placed, points_m)
     assert explained.probability > 0.8
     assert explained.item == 1, "Bottino"
     assert explained.offset_m == pytest.approx([0, -3])
@@ -284,7 +286,9 @@ def test_cells_have_what_they_would_have_if_each_were_looked_at(field) -> None:
     rng = np.random.default_rng(2)
     centers = np.stack(np.meshgrid(np.arange(0, 3000, GRID_M), np.arange(0, 1500, GRID_M)), axis=-1).reshape(-1, 2)
     words = [GazetteerObject(("shop",), (name,)) for name in ("One", "Other", "Third")]
-    town = build_gazetteer(words, [point(*at) for at in rng.uniform((0, 0), (3000, 1500), (3, 2))], [False] * 3)
+    town = build_gazetteer(
+        words, [point(*position) for position in rng.uniform((0, 0), (3000, 1500), (3, 2))], [False] * 3
+    )
     wide = PlaceField(PlaceKernels(), town, centers, GRID_M)
     cues = Cue(), Cue(relation="near"), Cue(measure=Measure(0, 5, 100.0))
     mentions = [

@@ -87,9 +87,9 @@ def test_the_street_that_crosses_is_the_nearest(landmarks):
     assert landmarks.has_corners
 
 
-@pytest.mark.parametrize("said", [(), ("West 25th Street",), ("Harlem Road", "10th Avenue")])
-def test_rows_and_columns_of_crossings_agree(landmarks, said):
-    on = np.concatenate([np.zeros(0, np.int64), *(landmarks.streets.find(name) for name in said)])
+@pytest.mark.parametrize("street_names", [(), ("West 25th Street",), ("Harlem Road", "10th Avenue")])
+def test_rows_and_columns_of_crossings_agree(landmarks, street_names):
+    on = np.concatenate([np.zeros(0, np.int64), *(landmarks.streets.find(name) for name in street_names)])
     rows = landmarks.crossings.rows(np.arange(len(CENTERS)), on).toarray()
     for n in range(len(landmarks.streets)):
         assert rows[:, n] == pytest.approx(landmarks.crossings.probability(np.array([n]), on))
@@ -97,22 +97,22 @@ def test_rows_and_columns_of_crossings_agree(landmarks, said):
 
 
 def test_cells_do_not_depend_on_which_others_there_are(landmarks):
-    some = Landmarks.build(made_gazetteer(), CENTERS[[3, 1]], ("shop", "amenity"))
-    assert dense(some.name_table) == pytest.approx(dense(landmarks.name_table)[[3, 1]])
-    assert dense(some.street_table) == pytest.approx(dense(landmarks.street_table)[[3, 1]])
-    crossings = [dense(one.crossings.pairs) for one in (some, landmarks)]
+    subset = Landmarks.build(made_gazetteer(), CENTERS[[3, 1]], ("shop", "amenity"))
+    assert dense(subset.name_table) == pytest.approx(dense(landmarks.name_table)[[3, 1]])
+    assert dense(subset.street_table) == pytest.approx(dense(landmarks.street_table)[[3, 1]])
+    crossings = [dense(one.crossings.pairs) for one in (subset, landmarks)]
     assert crossings[0] == pytest.approx(crossings[1][[3, 1]])
 
 
 @pytest.mark.parametrize("cells_per_block", [1, 4])
 def test_landmarks_are_the_same_of_however_many_cells_cells_per_block(cells_per_block, landmarks, monkeypatch):
     monkeypatch.setattr(landmarks_module, "CELLS_PER_BLOCK", cells_per_block)
-    some = Landmarks.build(made_gazetteer(), CENTERS, ("shop", "amenity"))
+    subset = Landmarks.build(made_gazetteer(), CENTERS, ("shop", "amenity"))
     for name in ("street_table", "name_table", "address_table"):
-        assert (dense(getattr(some, name)) == dense(getattr(landmarks, name))).all()
-    assert (dense(some.crossings.pairs) == dense(landmarks.crossings.pairs)).all()
-    assert some.crossings.on.tolist() == landmarks.crossings.on.tolist()
-    assert some.crossings.other.tolist() == landmarks.crossings.other.tolist()
+        assert (dense(getattr(subset, name)) == dense(getattr(landmarks, name))).all()
+    assert (dense(subset.crossings.pairs) == dense(landmarks.crossings.pairs)).all()
+    assert subset.crossings.on.tolist() == landmarks.crossings.on.tolist()
+    assert subset.crossings.other.tolist() == landmarks.crossings.other.tolist()
 
 
 def test_what_is_saved_is_loaded(landmarks, tmp_path):
@@ -121,14 +121,14 @@ def test_what_is_saved_is_loaded(landmarks, tmp_path):
     tables = [
         (getattr(landmarks, name), getattr(loaded, name)) for name in ("street_table", "name_table", "address_table")
     ]
-    for was, found in [*tables, (landmarks.crossings.pairs, loaded.crossings.pairs)]:
-        assert (dense(was) == dense(found)).all()
-        assert dense(found).any()
+    for was, loaded_table in [*tables, (landmarks.crossings.pairs, loaded.crossings.pairs)]:
+        assert (dense(was) == dense(loaded_table)).all()
+        assert dense(loaded_table).any()
     for name in ("on", "other"):
         assert (getattr(landmarks.crossings, name) == getattr(loaded.crossings, name)).all()
     assert loaded.crossings.streets == landmarks.crossings.streets
-    for said in ("25th", "W 25th St"):
-        assert loaded.streets.find(said).tolist() == landmarks.streets.find(said).tolist() != []
+    for name in ("25th", "W 25th St"):
+        assert loaded.streets.find(name).tolist() == landmarks.streets.find(name).tolist() != []
     assert loaded.addresses.find("402").tolist() == landmarks.addresses.find("402").tolist() != []
     assert list(loaded.names.shown) == list(landmarks.names.shown)
 

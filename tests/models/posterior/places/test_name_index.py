@@ -6,7 +6,7 @@ STREETS = [("East 42nd Street",), ("West 42nd Street",), ("Fabianinkatu", "Fabia
 PLACES = [("Café Zoë",), ("R-Kioski",), ("R-kioski", "Ärrä"), ("The Strand", "Strand Books"), ("Ärrä",), ("!!!",)]
 
 
-def found(names, text, *, are_streets):
+def columns(names, text, *, are_streets):
     spelt = NameIndex.build(names, are_streets=are_streets)
     return [spelt.shown[n] for n in spelt.find(text)]
 
@@ -23,7 +23,7 @@ def found(names, text, *, are_streets):
     ],
 )
 def test_streets(text, names):
-    assert found(STREETS, text, are_streets=True) == names
+    assert columns(STREETS, text, are_streets=True) == names
 
 
 @pytest.mark.parametrize(
@@ -39,7 +39,7 @@ def test_streets(text, names):
     ],
 )
 def test_places(text, names):
-    assert found(PLACES, text, are_streets=False) == names
+    assert columns(PLACES, text, are_streets=False) == names
 
 
 def test_objects_of_one_name_share_a_column():
