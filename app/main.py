@@ -69,8 +69,12 @@ def create_app(
 def _build_indexes(settings: Settings, open_localizer: Callable[[], LocalizerLike] | None) -> Indexes:
     if open_localizer is not None:
         return Indexes(lambda _alias, _version: [open_localizer()], dict, settings.max_wait_ms / 1000)
-    opener, read = partial(_open_workers, settings), partial(_read_aliases, settings.index_dir)
-    return Indexes(opener, read, settings.max_wait_ms / 1000, partial(check_version, settings.index_dir))
+
+    def open_in_workers(_alias: str, version: str | None) -> Sequence[LocalizerLike]:
+        return open_workers(localizer_spec(settings, version), settings.workers or usable_cpus())
+
+    read, check = partial(_read_aliases, settings.index_dir), partial(check_version, settings.index_dir)
+    return Indexes(open_in_workers, read, settings.max_wait_ms / 1000, check)
 
 
 def _create_fastapi(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[None]]) -> FastAPI:
@@ -102,10 +106,6 @@ def _add_routes(app: FastAPI, settings: Settings, page_dir: Path) -> None:
     app.add_middleware(AccessLog, metrics=app.state.metrics, log_descriptions=settings.log_descriptions)
     app.add_middleware(CorrelationIdMiddleware, validator=is_sane_request_id)
     app.add_middleware(SafeHeaders)
-
-
-def _open_workers(settings: Settings, alias: str, version: str | None) -> Sequence[LocalizerLike]:
-    return open_workers(localizer_spec(settings, version), settings.workers or usable_cpus())
 
 
 def localizer_spec(settings: Settings, version: str | None = None) -> LocalizerSpec:

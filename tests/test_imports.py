@@ -64,7 +64,6 @@ WITHOUT_TORCH = [
     ROOT / "models/strings.py",
     ROOT / "models/training/metrics.py",
     ROOT / "app/http/schemas/requests.py",
-    ROOT / "app/http/schemas/evaluate_requests.py",
     ROOT / "index/answering/answers.py",
     ROOT / "index/answering/query.py",
 ]

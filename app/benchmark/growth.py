@@ -38,10 +38,9 @@ def parse_sizes(text: str) -> list[int]:
 
 
 def run_growth(map_path: Path, sizes: Sequence[int], out: Path | None = None) -> dict[str, Any]:
-    """Measure cities of several sizes, copies of a small one, and write benchmark.json and plots to `out`.
+    """Measure cities of several sizes, copies of a small one; write benchmark.json and plots to `out` after each size.
 
-    The report has the results of `_measure_size` as "sizes", and "ratios" to those of the smallest. After a size that
-    "failed", larger sizes are skipped. DataError if a size is smaller than the map.
+    After a size that "failed", larger sizes are skipped. DataError if a size is smaller than the map.
     """
     extract = CityExtract.read(map_path)
     cells, questions = _measure_one_copy(map_path)
@@ -114,7 +113,6 @@ def _measure_service(index_dir: Path, questions: list[BenchmarkQuery], block: Co
 
 
 def _bytes_a_cell(localizer: "Localizer", index_dir: Path) -> dict[str, float]:
-    """Return the bytes per cell of an index on disk, by file and in total."""
     version, cells = index_dir / localizer.manifest.version, localizer.manifest.cells
     sizes = {path.name: path.stat().st_size for path in sorted(version.iterdir())}
     return {name: round(size / cells, 1) for name, size in {**sizes, "all": sum(sizes.values())}.items()}

@@ -14,7 +14,6 @@ from models.errors import MapError
 from models.sources.osm.city_copies import CopyGrid
 
 if TYPE_CHECKING:  # so that the command line starts without torch
-    from models.citymap.gazetteer.gazetteer import Gazetteer
     from models.sources.source import Source
 
 QUERIES_PER_KIND = 200
@@ -41,10 +40,7 @@ class BenchmarkAnswers:
     places: list[tuple[float, float] | None]
 
     def figures(self, queries: Sequence[BenchmarkQuery], block: CopyGrid) -> dict[str, Any]:
-        """Return percentiles of latency in ms, the number of unanswered requests, and the accuracy.
-
-        "accuracy_in_any_copy" ignores in which copy the estimate is.
-        """
+        """Return percentiles of latency in ms, the number of unanswered requests, and the accuracy."""
         seconds = percentiles(self.seconds) if self.seconds else {"p50": None, "p99": None}
         folded = [place and block.to_first_copy(*place) for place in self.places]
         return seconds | {
@@ -64,12 +60,8 @@ def draw_queries(source: "Source") -> list[BenchmarkQuery]:
     drawn = []
     for row, *place in zip(rows, lat.tolist(), lon.tolist(), strict=True):
         street = nearest_street(gazetteer, queries.positions_m[row])
-        drawn.append(BenchmarkQuery(queries.sentences[row], street and _name(gazetteer, street[0]), *place))
+        drawn.append(BenchmarkQuery(queries.sentences[row], street and gazetteer.objects[street[0]].names[0], *place))
     return drawn
-
-
-def _name(gazetteer: "Gazetteer", number: int) -> str:
-    return gazetteer.objects[number].names[0]
 
 
 def split_questions(
@@ -85,10 +77,9 @@ def split_questions(
 
 
 def localize_all(client: httpx.Client, questions: Sequence[BenchmarkQuery], block: CopyGrid) -> dict[str, Any]:
-    """Send all queries to the service of a tiled city, one after another.
+    """Send all queries to the service of a tiled city, one after another; return the figures by kind of request.
 
-    Return `BenchmarkAnswers.figures` by kind of request: "anywhere"; "within_..._percent" of the block's area; and
-    "with_street", the queries of "anywhere" plus the name of the street, without latencies because their hints are
+    "with_street" adds the name of the street to the queries of "anywhere"; it has no latencies because hints are
     cached.
     """
     warm, (free, *boxed) = split_questions(questions)

@@ -22,10 +22,9 @@ SCORE_TOLERANCE = 1e-6  # rounding of float32 scores
 
 
 def measure_searches(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -> dict[str, Any]:
-    """Measure the search for the candidates of one description on one thread, in median milliseconds.
+    """Measure the search for the candidates of one description with FAISS and Milvus, median ms on one thread.
 
-    "found" is the recall of FAISS against exact search. "milvus" has its kind (milvus-lite, or the server of
-    HEREABOUTS_MILVUS_URI), "write_seconds" and "ms", or says why Milvus does not answer.
+    "found" is the recall of FAISS against exact search.
     """
     from models.posterior.posterior import CANDIDATE_CELLS  # noqa: PLC0415 - heavy
 

@@ -24,12 +24,7 @@ PARTS = 100  # descriptions for `measure_parts`
 
 
 def run_benchmark(map_path: Path, index_dir: Path) -> dict[str, Any]:
-    """Measure one map, which is indexed once more, and the service of one index on this machine.
-
-    The figures are: building the index; the start of `hereabouts serve` and `localize`; warm latencies with one client
-    for new text, the same beside a busy process, new text that fits many places, cached text, and `/healthz` as the
-    baseline; and `measure_parts`.
-    """
+    """Measure indexing of a map, and the start and warm latencies of the service of an index, on this machine."""
     with tempfile.TemporaryDirectory() as scratch:
         index = measure_index(map_path, Path(scratch) / "index")
     localizer = open_index(index_dir)
@@ -77,10 +72,7 @@ def descriptions(localizer: "Localizer", count: int) -> list[tuple[str, ...]]:
 
 
 def measure_parts(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -> dict[str, float]:
-    """Measure the steps of answering new descriptions in median milliseconds, and the bytes per cell.
-
-    Encoding the sentences and ranking cells by them are the baseline.
-    """
+    """Measure the steps of answering new descriptions, median ms, and the bytes per cell."""
     from index.answering.vector_localizer import RANKED_CELLS  # noqa: PLC0415 - heavy
     from models.posterior.locate import locate  # noqa: PLC0415 - heavy
     from models.posterior.posterior import PositionEvidence  # noqa: PLC0415 - heavy
@@ -133,6 +125,5 @@ def _localize(client: httpx.Client, hints: tuple[str, ...]) -> None:
 
 
 def _vague_hint(n: int) -> str:
-    """Return a sentence that is not cached and fits many places."""
     direction = ("north", "south", "east", "west")[n % 4]
     return f"I am {direction} of a gray building with the number {n}."

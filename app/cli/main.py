@@ -19,8 +19,7 @@ from app.cli import measure as cli_measure
 from app.cli import reproduce as cli_reproduce
 from app.cli import train as cli_train
 from app.cli.aliases import aliases
-from app.cli.index_options import check_shard_options, parse_shard, run_index_job
-from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Split
+from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Split, check_shard_options, parse_shard, run_index_job
 from index.answering.query import DEFAULT_REFINE, DEFAULT_TOP_K, Refine
 from index.build.shard import MAX_SHARDS, Shard
 from models.errors import HereaboutsError

@@ -1,9 +1,15 @@
-"""Options that several commands share."""
+"""Options that several commands share, and those of `index` that split the work into shards."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+from index.build.shard import Shard
+
+if TYPE_CHECKING:
+    from index.build.build import IndexJob
+    from models.citymap.types import Progress
 
 INDEX_DIR = Path("data/index")
 DATA_HELP = (
@@ -19,3 +25,38 @@ SPLIT_HELP = (
 IndexDir = Annotated[Path, typer.Option("--index", envvar="HEREABOUTS_INDEX_DIR", help="index directory")]
 Split = Annotated[str | None, typer.Option(help=SPLIT_HELP)]
 Seed = Annotated[int, typer.Option(min=0, help="random seed")]
+
+
+def parse_shard(text: str | Shard) -> Shard:
+    """Parse "I/N"."""
+    try:
+        return Shard.parse(str(text))
+    except ValueError as error:
+        raise typer.BadParameter(str(error)) from None
+
+
+def check_shard_options(
+    shard: Shard | None, merge: int | None, engine: str | None, address: str | None, keep_current: bool
+) -> None:
+    """Refuse options that exclude each other."""
+    if shard and (merge or engine):
+        raise typer.BadParameter("--shard builds one shard, --merge and --engine build an index: give one of them")
+    if shard and keep_current:
+        raise typer.BadParameter("--keep-current applies to an index, not to a shard: leave it out with --shard")
+    if address is not None and not engine:
+        raise typer.BadParameter(
+            "--address is the address of a Ray cluster: give --engine ray with it, or leave it out"
+        )
+
+
+def run_index_job(
+    job: "IndexJob", shard: Shard | None, merge: int | None, engine: str | None, address: str | None, show: "Progress"
+) -> Path:
+    """Build an index, merge its shards, or build one shard; return the directory of the result."""
+    if shard:
+        return job.make_shard(shard, show)
+    if engine:
+        from index.build.ray_shards import build_on_ray  # noqa: PLC0415  # heavy
+
+        return build_on_ray(job, merge, address, show)
+    return job.merge(merge, show) if merge else job.build(show)

@@ -10,12 +10,7 @@ from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedCo
 @contextmanager
 def stage_bars() -> Iterator[Callable[[str, int, int], None]]:
     """Yield a callback (stage, done, total) that shows one bar per stage; a total of 0 means unknown."""
-    columns = (
-        TextColumn("{task.description:<18}"),
-        BarColumn(),
-        TextColumn("{task.completed:.0f}"),
-        TimeElapsedColumn(),
-    )
+    columns = TextColumn("{task.description:<18}"), BarColumn(), TextColumn("{task.completed:.0f}"), TimeElapsedColumn()
     with Progress(*columns, console=Console(stderr=True)) as bars:
         tasks: dict[str, TaskID] = {}
 

@@ -134,15 +134,10 @@ def _train_model(
 
 @contextmanager
 def _training_bar() -> "Iterator[Callable[[Progress], None]]":
-    from rich import progress as rich_progress
+    from rich import progress as rich
 
-    columns = (
-        rich_progress.TextColumn("{task.description}"),
-        rich_progress.BarColumn(),
-        rich_progress.MofNCompleteColumn(),
-        rich_progress.TimeRemainingColumn(),
-    )
-    with rich_progress.Progress(*columns, console=Console(stderr=True)) as bar:
+    columns = rich.TextColumn("{task.description}"), rich.BarColumn(), rich.MofNCompleteColumn()
+    with rich.Progress(*columns, rich.TimeRemainingColumn(), console=Console(stderr=True)) as bar:
         task = bar.add_task("preparing", total=None)
         validation = ""
 

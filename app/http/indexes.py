@@ -51,12 +51,12 @@ class Indexes:
         self._checks: set[asyncio.Task[None]] = set()  # of served and of retired versions
         self._watching: asyncio.Task[None] | None = None
         self._checking = asyncio.Lock()
-        self._is_draining = False
+        self.is_draining = False  # shutting down, new queries are refused
         self._unreadable = ""  # the last logged reason why aliases cannot be read
 
     async def start(self) -> None:
         """Start opening the versions that the aliases name, and start watching the aliases."""
-        self._is_draining, self._checking = False, asyncio.Lock()
+        self.is_draining, self._checking = False, asyncio.Lock()
         versions_by_alias = await self._read_versions() or {}
         self._served = {
             alias: self._begin(alias, versions_by_alias.get(alias)) for alias in {DEFAULT_ALIAS, *versions_by_alias}
@@ -95,18 +95,13 @@ class Indexes:
                 served.unused.set()
 
     @property
-    def is_draining(self) -> bool:
-        """Whether the service is shutting down and refuses new queries."""
-        return self._is_draining
-
-    @property
     def is_idle(self) -> bool:
         """Whether no query waits or is being computed."""
         return all(served.queue.is_idle for served in self._served.values())
 
     def check_accepting(self) -> None:
         """Raise 503 if a query to the default index would not be accepted now."""
-        if self._is_draining:
+        if self.is_draining:
             raise Problem(Code.DRAINING)
         self.queue().check_accepting()
 
@@ -118,7 +113,7 @@ class Indexes:
 
     def drain(self) -> None:
         """Refuse new queries; waiting ones are still answered. Takes no lock: a signal handler may call it."""
-        self._is_draining = True
+        self.is_draining = True
         for served in list(self._served.values()):
             served.queue.drain()
 
@@ -146,7 +141,7 @@ class Indexes:
             await new.queue.close()
             if not isinstance(error, Problem):
                 raise
-            reason = str(new.queue.failure or error.detail)
+            reason = str(new.queue.error or error.detail)
             log.error("index not switched", alias=alias, index_version=version, reason=reason)
             return False
         old, self._served[alias] = self._served.get(alias), new
@@ -160,7 +155,7 @@ class Indexes:
         opener = partial(self._open_index, alias, version)
         queue = InferenceQueue(opener, limits.MAX_WAITING_QUERIES, self._max_wait_s)
         queue.start()
-        if self._is_draining:
+        if self.is_draining:
             queue.drain()
         return _ServedIndex(queue, version)
 

@@ -23,21 +23,11 @@ SCHEMES: Final[dict[str, Any]] = {
 SAFE_METHODS: Final = frozenset({"GET", "HEAD", "OPTIONS"})  # RFC 9110, 9.2.1
 READING_POSTS: Final = frozenset({"/localize", "/localize/batch", "/describe"})  # have a body but change no state
 FORWARDED_PREFIX: Final = b"x-forwarded"
-FORWARDED_HEADERS: Final = frozenset(  # a reverse proxy, a tunnel or a content delivery network sends one of them
-    {
-        b"forwarded",
-        b"via",
-        b"x-real-ip",
-        b"x-client-ip",
-        b"x-cluster-client-ip",
-        b"x-original-host",
-        b"x-original-forwarded-for",
-        b"x-envoy-external-address",
-        b"true-client-ip",
-        b"cf-connecting-ip",
-        b"fastly-client-ip",
-    }
-)
+FORWARDED_HEADERS: Final = frozenset({  # a reverse proxy, a tunnel or a content delivery network sends one of them
+    b"forwarded", b"via", b"x-real-ip", b"x-client-ip", b"x-cluster-client-ip", b"x-original-host",
+    b"x-original-forwarded-for", b"x-envoy-external-address", b"true-client-ip", b"cf-connecting-ip",
+    b"fastly-client-ip",
+})  # fmt: skip
 _HOST: Final = re.compile(r"(\[(?P<address>[^\[\]]+)\]|(?P<name>[^\[\]:]+))(:\d*)?")
 CHALLENGE: Final = 'Bearer realm="hereabouts"'  # RFC 6750, 3: without an error where no key was sent
 

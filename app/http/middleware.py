@@ -23,8 +23,7 @@ def is_sane_request_id(value: str) -> bool:
 
 def descriptions_of(scope: Scope) -> list[str]:
     """Return the descriptions of one request, to which its route adds; they are logged only if the settings say so."""
-    descriptions: list[str] = scope.setdefault("hereabouts.descriptions", [])
-    return descriptions
+    return scope.setdefault("hereabouts.descriptions", [])
 
 
 class AccessLog:

@@ -22,10 +22,10 @@ def problems(*codes: Code) -> Responses:
     return {
         status: {
             "model": ProblemBody,
-            "description": "; ".join(code.title for code in alike),
-            "content": {PROBLEM_JSON: {"examples": {code.code: {"value": Problem(code).body()} for code in alike}}},
+            "description": "; ".join(code.title for code in errors),
+            "content": {PROBLEM_JSON: {"examples": {code.code: {"value": Problem(code).body()} for code in errors}}},
         }
-        for status, alike in by_status.items()
+        for status, errors in by_status.items()
     }
 
 
@@ -47,8 +47,9 @@ def describe(app: FastAPI, needs_key: bool) -> dict[str, Any]:
                 if PROBLEM_JSON not in responses.get("422", {}).get("content", {}):
                     responses.pop("422", None)  # FastAPI adds one for any parameter, even one that accepts everything
                 for status, response in responses.items():
-                    if int(status) >= 400:
-                        _as_problem(response["content"])
+                    if int(status) >= 400:  # problem+json instead of FastAPI's application/json and its own 422 model
+                        del response["content"][JSON]
+                        response["content"].setdefault(PROBLEM_JSON, {})["schema"] = PROBLEM_SCHEMA
         for unused in ("HTTPValidationError", "ValidationError"):
             document["components"]["schemas"].pop(unused, None)
         if needs_key:
@@ -73,9 +74,3 @@ def _require_key(document: dict[str, Any]) -> None:
         for operation in path.values():
             if operation.get("security") != OPEN["security"]:
                 operation["responses"][str(status)] = {"description": refused["description"], "content": content}
-
-
-def _as_problem(content: dict[str, Any]) -> None:
-    """Replace FastAPI's application/json and its own 422 model by problem+json."""
-    del content[JSON]
-    content.setdefault(PROBLEM_JSON, {})["schema"] = PROBLEM_SCHEMA

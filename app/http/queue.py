@@ -83,7 +83,7 @@ class InferenceQueue:
         self._query_s = INITIAL_QUERY_S  # moving average of the time of a query
         self._localizers: Sequence[LocalizerLike] = ()
         self._failure: str | None = None  # why no query is answered, as clients see it
-        self._error: Exception | None = None
+        self.error: Exception | None = None  # raised by `open_localizers`
         self._is_draining = False
         self._is_closed = False
         self._threads: list[Thread] = []
@@ -91,10 +91,7 @@ class InferenceQueue:
 
     @property
     def localizer(self) -> LocalizerLike:
-        """The first localizer, for its facts and cells; 503 if it is not ready.
-
-        Only the threads of the queue may call `localize`.
-        """
+        """The first localizer, for its facts and cells but not for `localize`; 503 if it is not ready."""
         if self._failure is not None:
             raise Problem(Code.LOAD_FAILED, self._failure)
         if not self._localizers:
@@ -106,11 +103,6 @@ class InferenceQueue:
         await asyncio.shield(asyncio.wrap_future(self._opened))  # cancelling one waiter must not cancel the others
 
     @property
-    def failure(self) -> Exception | None:
-        """The error that opening the localizers raised, if any."""
-        return self._error
-
-    @property
     def num_waiting(self) -> int:
         """The number of waiting queries."""
         return len(self._pending)
@@ -119,11 +111,6 @@ class InferenceQueue:
     def num_workers(self) -> int:
         """The number of localizers that answer; 0 before they are open and after `fail`."""
         return 0 if self._failure is not None else len(self._localizers)
-
-    @property
-    def is_draining(self) -> bool:
-        """Whether the queue is shutting down and refuses new queries."""
-        return self._is_draining
 
     @property
     def is_idle(self) -> bool:
@@ -168,10 +155,9 @@ class InferenceQueue:
             await asyncio.to_thread(thread.join)
 
     async def submit(self, query: Query, deadline_s: float) -> ServedAnswer:
-        """Answer a query. If the caller is cancelled before the computation begins, the query is not computed.
+        """Answer a query before the time.monotonic() `deadline_s`; 429 if the queue is full, 503 or 504.
 
-        `deadline_s` is in time.monotonic(). Raise 429 if the queue is full, 503 if it accepts no queries, 504 after the
-        deadline.
+        If the caller is cancelled before the computation begins, the query is not computed.
         """
         pending = _PendingQuery(query, deadline_s)
         with self._lock:
@@ -225,7 +211,7 @@ class InferenceQueue:
             localizers = self._open_localizers()
         except HereaboutsError as error:
             log.error("load failed", reason=str(error))
-            self._error = error
+            self.error = error
             self._failure = "the index or the model cannot be used; the reason is in the service's log"
             return ()
         except Exception as error:

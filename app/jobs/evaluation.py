@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from app.http.bodies import check_json
 from app.http.errors import Problem, field_message, field_name
-from app.http.schemas.evaluate_requests import EvaluateQuery, EvaluateRequest
+from app.http.schemas.requests import EvaluateQuery, EvaluateRequest
 from app.settings import Settings
 from index.answering.query import DEFAULT_REFINE, Refine
 from index.build.artifact import open_version
@@ -56,7 +56,8 @@ class Evaluation(BaseModel):
 
         if self.data is not None:
             source, queries = self._open(progress)
-            return evaluate(source.data, queries, self._localizer(source, progress), report_dir, self.grow_m, progress)
+            build = self._posterior if self.refine == "posterior" else self._vectors
+            return evaluate(source.data, queries, build(source, progress), report_dir, self.grow_m, progress)
         assert self.index_dir is not None
         progress("open index", 0, 0)
         localizer = Localizer.open(self.index_dir, *(getattr(self, name) for name in WEIGHTS_DIRS))
@@ -75,9 +76,6 @@ class Evaluation(BaseModel):
         source = open_source(self.data, self.split, progress)
         progress("describe positions", 0, 0)
         return source, source.queries()
-
-    def _localizer(self, source: "Source", progress: Progress) -> "CellLocalizer":
-        return self._posterior(source, progress) if self.refine == "posterior" else self._vectors(source, progress)
 
     def _posterior(self, source: "Source", progress: Progress) -> "PosteriorLocalizer":
         from index.evaluation.localizers import posterior_of_map  # noqa: PLC0415

@@ -27,15 +27,15 @@ MAX_FINISHED_JOBS = 32  # older ones are deleted
 EXIT_TIMEOUT_S = 5.0  # for a worker to exit after it closed its output
 STDERR_FILE = "stderr.txt"
 MAX_LOGGED_STDERR_BYTES = 4000  # the end of a crashed worker's stderr
+INTERNAL_ERROR = JobError(code="internal_error", detail="an internal error, which is in the service's log")
 
 log = structlog.get_logger()
 
 
 class EvaluationJobs:
-    """Runs evaluations in the order of their submission.
+    """Runs evaluations in the order of their submission; the job's directory is appended to the worker's `command`.
 
     `directory` keeps jobs over restarts: waiting jobs start again, a running job becomes interrupted, and reports stay.
-    The job's directory is appended to the `command` of the worker.
     """
 
     def __init__(
@@ -61,7 +61,7 @@ class EvaluationJobs:
         runner, self._runner = self._runner, None
         if runner is None:
             return
-        status: Literal["cancelled", "interrupted"] = "interrupted" if self._store.is_kept else "cancelled"
+        status: Literal["cancelled", "interrupted"] = "interrupted" if self._store.is_persistent else "cancelled"
         await asyncio.gather(*(self._stop(job, status) for job in list(self._jobs.values())))
         runner.cancel()
         await asyncio.gather(runner, return_exceptions=True)
@@ -130,7 +130,7 @@ class EvaluationJobs:
                 await self._work(job)
             except Exception:
                 log.exception("evaluation failed", job=job.id)
-                self._finish(job, "failed", error=_fault())
+                self._finish(job, "failed", error=INTERNAL_ERROR)
 
     async def _work(self, job: EvaluationJob) -> None:
         with (job.directory / STDERR_FILE).open("wb") as errors:
@@ -156,7 +156,7 @@ class EvaluationJobs:
         else:
             stderr_text = (job.directory / STDERR_FILE).read_bytes()[-MAX_LOGGED_STDERR_BYTES:].decode(errors="replace")
             log.error("evaluation crashed", job=job.id, exit_status=process.returncode, stderr=stderr_text)
-            self._finish(job, "failed", error=_fault())
+            self._finish(job, "failed", error=INTERNAL_ERROR)
 
     async def _follow(self, job: EvaluationJob, process: Process) -> str | None:
         """Read the lines of a worker until it exits; return its error message about the input, if any."""
@@ -201,7 +201,3 @@ def _kill(process: Process | None) -> None:
     if process is not None:
         with suppress(ProcessLookupError):
             os.killpg(process.pid, signal.SIGKILL)
-
-
-def _fault() -> JobError:
-    return JobError(code="internal_error", detail="an internal error, which is in the service's log")

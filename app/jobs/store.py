@@ -29,18 +29,18 @@ class JobStore:
         self._directory = directory
         self._lock: int | None = None
         self._root: Path | None = None
-        self.is_kept = False
+        self.is_persistent = False
 
     def open(self) -> list[EvaluationJob]:
         """Return the stored jobs, oldest first; those that were running become interrupted."""
-        self._root, self.is_kept = self._lock_directory()
+        self._root, self.is_persistent = self._lock_directory()
         job_dirs = [path for path in self._root.iterdir() if JOB_ID.fullmatch(path.name)]  # ignore other files
         jobs = [job for path in job_dirs if (job := self._load(path)) is not None]
         return sorted(jobs, key=lambda job: job.created)
 
     def close(self) -> None:
         """Release the directory; remove a temporary one."""
-        if self._root is not None and not self.is_kept:
+        if self._root is not None and not self.is_persistent:
             shutil.rmtree(self._root, ignore_errors=True)
         if self._lock is not None:
             os.close(self._lock)
@@ -66,7 +66,7 @@ class JobStore:
             log.error("job not written", job=job.id, status=job.status, reason=error.strerror)
 
     def _write(self, job: EvaluationJob) -> None:
-        if self.is_kept and job.directory.is_dir():
+        if self.is_persistent and job.directory.is_dir():
             replace_file(job.directory / STATE, job.state().model_dump_json().encode())
 
     def remove(self, job: EvaluationJob) -> None:

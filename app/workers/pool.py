@@ -52,8 +52,7 @@ class WorkerPool:
     def fork(self) -> tuple[int, Connection, Connection]:
         """Fork a worker; return its process id, its connection for queries and its connection for other calls.
 
-        Raise EOFError if the pool is closed, HereaboutsError if the process had died and the index cannot be opened
-        again.
+        EOFError if the pool is closed. A process that had died is started again.
         """
         with self._lock:
             if self._closed:

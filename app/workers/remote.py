@@ -26,7 +26,7 @@ class RemoteLocalizer:
         self._pool = pool
         self._changing = Lock()
         self._reading = Lock()
-        self._pid, self._queries, self._reads = pool.fork()
+        self.pid, self._queries, self._reads = pool.fork()
         pool.enter()
 
     @property
@@ -39,35 +39,25 @@ class RemoteLocalizer:
         """The coordinate frame of the map."""
         return self._pool.frame
 
-    @property
-    def pid(self) -> int:
-        """The process id of the worker."""
-        return self._pid
-
     def localize(self, queries: Sequence[Query]) -> list[Answer]:
         """Return one answer per query."""
-        answers: list[Answer] = self._call("_queries", "localize", list(queries))
-        return answers
+        return self._call("_queries", "localize", list(queries))
 
     def describe(self, position_m: tuple[float, float]) -> Described | None:
         """Describe a position."""
-        described: Described | None = self._read("describe", position_m)
-        return described
+        return self._read("describe", position_m)
 
     def cell(self, cell_id: str) -> CellDetail | None:
         """Return a cell."""
-        cell: CellDetail | None = self._read("cell", cell_id)
-        return cell
+        return self._read("cell", cell_id)
 
     def cells(self, first: int, count: int) -> list[CellSummary]:
         """Return a page of cells."""
-        cells: list[CellSummary] = self._read("cells", first, count)
-        return cells
+        return self._read("cells", first, count)
 
     def scenery(self, number: int) -> SceneryPart | None:
         """Return a part of the scenery."""
-        part: SceneryPart | None = self._read("scenery", number)
-        return part
+        return self._read("scenery", number)
 
     def close(self) -> None:
         """End the worker; the last worker of a pool also ends the pool's process."""
@@ -100,8 +90,8 @@ class RemoteLocalizer:
         """Fork another worker unless the thread of the other connection has done so; close only the lost connection."""
         with self._changing:
             if getattr(self, attribute) is lost:
-                log.warning("worker lost", pid=self._pid)
-                self._pid, self._queries, self._reads = self._pool.fork()
+                log.warning("worker lost", pid=self.pid)
+                self.pid, self._queries, self._reads = self._pool.fork()
         lost.close()
 
 

@@ -164,12 +164,12 @@ class NamedFacts:
         self._gazetteer, words = gazetteer, gazetteer.objects
         streets = [name.casefold() for row in gazetteer.by_kind.get(STREET_KIND, ()) for name in words[row].names]
         # a bus stop "Broadway & West 25th Street" would be parsed as the corner
-        of_streets = re.compile(rf"\b(?:{'|'.join(map(re.escape, streets))})\b") if streets else None
+        street_pattern = re.compile(rf"\b(?:{'|'.join(map(re.escape, streets))})\b") if streets else None
         visible = [
             row
             for row in gazetteer.named.tolist()
             if not words[row].kinds[0].startswith(INVISIBLE_KINDS)
-            and not (of_streets and of_streets.search(words[row].names[0].casefold()))
+            and not (street_pattern and street_pattern.search(words[row].names[0].casefold()))
         ]
         names = [words[row].names[0].casefold() for row in visible]
         count = Counter(names)
@@ -209,10 +209,7 @@ class NearFacts:
         self._log_share = np.log(np.maximum(count, 1) / max(1, objects.parts.sum()))
 
     def facts(self, position: Floats, cell: int, mentioned: Set[str], most: int) -> list[Fact]:
-        """Return at most `most` facts about objects near a position [2] whose nearest centre is that of `cell`.
-
-        `mentioned` are the names and source ids in earlier facts.
-        """
+        """Return at most `most` facts about objects near a position [2] that earlier facts have not mentioned."""
         facts: list[Fact] = []
         for hint, is_ground, sight in self._visible_objects(position, cell, mentioned):
             if len(facts) == most:

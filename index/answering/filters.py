@@ -122,5 +122,4 @@ def log_prior(query: Query, points_m: Floats, frame: Frame) -> Floats:
     if query.prior is None:
         return np.zeros(len(points_m))
     offset = points_m - frame.position_m(query.prior.position, query.crs)
-    density: Floats = -(offset**2).sum(axis=1) / (2 * query.prior.sigma_m**2)
-    return density
+    return -(offset**2).sum(axis=1) / (2 * query.prior.sigma_m**2)

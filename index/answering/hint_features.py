@@ -18,12 +18,12 @@ from models.posterior.neighbours.map_objects import MapObjects
 FILE = "hints.safetensors"
 
 
-def template_hints(gallery: Gallery, things: MapObjects, palette: Palette) -> tuple[str, ...]:
+def template_hints(gallery: Gallery, objects: MapObjects, palette: Palette) -> tuple[str, ...]:
     """Return every template hint about the map's visible classes, in each of their colours and without colour."""
-    labels, number = things.labels(gallery)
-    shown, words = things.parts > 0, [*palette.words, None]
+    labels, number = objects.labels(gallery)
+    shown, words = objects.parts > 0, [*palette.words, None]
     shown_pairs = np.unique(
-        number[shown] * len(words) + palette.word_index(things.rgb[shown]) % len(words)
+        number[shown] * len(words) + palette.word_index(objects.rgb[shown]) % len(words)
     )  # -1 is the last
     pairs = {(str(labels[row // len(words)]), words[row % len(words)]) for row in shown_pairs.tolist()}
     pairs |= {(label, None) for label, _ in pairs}

@@ -23,7 +23,7 @@ from index.answering.meanings import Meanings
 from index.answering.posterior_localizer import PosteriorLocalizer
 from index.answering.query import Query, Refine
 from index.answering.ranking import Ranker
-from index.answering.result import CellLocalizer, to_answer
+from index.answering.result import to_answer
 from index.answering.vector_localizer import VectorLocalizer, raw_sentences
 from index.build.artifact import find_version, open_version
 from index.build.manifest import ADVICE, Manifest, check_model
@@ -117,13 +117,10 @@ class Localizer:
         )
 
     def localize(self, queries: Sequence[Query]) -> list[Answer]:
-        """Answer queries, in order; queries with the same `refine` form a batch.
-
-        Raise WeightsError, IndexBroken or StoreUnavailable if a model, a file or Milvus cannot be used.
-        """
+        """Answer queries, in order; queries with the same `refine` form a batch."""
         answers: dict[int, Answer] = {}
         for refine in {query.refine for query in queries}:
-            localizer = self.localizer_for(refine)
+            localizer = self.posterior if refine == "posterior" else self.vector_localizer(refine)
             rows = [n for n, query in enumerate(queries) if query.refine == refine]
             results = localizer.find([queries[n] for n in rows])
             for n, result in zip(rows, results, strict=True):
@@ -147,10 +144,6 @@ class Localizer:
         finally:
             self.ranker.store = store
         load_text_encoder()(["a"])  # quantize all layers before workers are forked
-
-    def localizer_for(self, refine: Refine) -> CellLocalizer:
-        """Return the localizer for a `refine`."""
-        return self.posterior if refine == "posterior" else self.vector_localizer(refine)
 
     def vector_localizer(self, refine: Refine) -> VectorLocalizer:
         """Return vector search, with the fine stage that `refine` names."""
@@ -232,8 +225,8 @@ class Localizer:
     def cells(self, first: int, count: int) -> list[CellSummary]:
         """Return at most `count` cells from row `first`, counted from 0."""
         rows = range(first, min(first + count, len(self.gallery.cells.ids)))
-        count_of = np.diff(self.gallery.cells.take(np.array(rows, np.int64)).parts.starts).tolist()
-        return [CellSummary(**self._cell_fields(row), instances=n) for row, n in zip(rows, count_of, strict=True)]
+        counts = np.diff(self.gallery.cells.take(np.array(rows, np.int64)).parts.starts).tolist()
+        return [CellSummary(**self._cell_fields(row), instances=n) for row, n in zip(rows, counts, strict=True)]
 
     def cell(self, cell_id: str) -> CellDetail | None:
         """Return a cell with its instances; None if there is no such cell."""

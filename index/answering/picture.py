@@ -143,7 +143,6 @@ def _draw_names(axes: Axes, scenery: DecodedScenery, colours: dict[str, Any]) ->
 def _names(
     scenery: DecodedScenery, box: tuple[float, float, float, float]
 ) -> Iterator[tuple[str, float, float, float]]:
-    """Yield names with position and rotation in degrees; streets first, each once."""
     west, south, east, north = box
     lines: dict[str, np.ndarray[Any, Any]] = {}
     for outline in scenery.outlines:
@@ -161,8 +160,8 @@ def _names(
         yield place.name, *place.position_m, 0.0
 
 
-def _is_in(at_m: tuple[float, float], box: tuple[float, float, float, float]) -> bool:
-    return box[0] < at_m[0] < box[2] and box[1] < at_m[1] < box[3]
+def _is_in(position_m: tuple[float, float], box: tuple[float, float, float, float]) -> bool:
+    return box[0] < position_m[0] < box[2] and box[1] < position_m[1] < box[3]
 
 
 def _length(path: Sequence[Any] | np.ndarray[Any, Any]) -> float:

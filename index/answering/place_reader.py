@@ -139,13 +139,7 @@ class PlaceReader:
 
 def possibly_near_hints(hints: Sequence[ParsedHint], mentions: Sequence[Mention]) -> list[ParsedHint]:
     """Return the hints that `near_hints` may keep."""
-    return [
-        hint
-        for hint in hints
-        if all(
-            _is_possibly_near(mention) for mention in mentions if mention.start < hint.end and hint.start < mention.end
-        )
-    ]
+    return [hint for hint in hints if all(_is_possibly_near(m) for m in mentions if _is_overlapping(m, hint))]
 
 
 def near_hints(
@@ -159,7 +153,7 @@ def near_hints(
     near_rows: list[int] = []
     places = list(mentions)
     for n, hint in enumerate(hints):
-        over = [m for m in places if m.start < hint.end and hint.start < m.end]
+        over = [m for m in places if _is_overlapping(m, hint)]
         if over and all(_is_possibly_near(m) for m in over) and trust[n] >= MIN_CLASS_TRUST:
             places = [m for m in places if not any(m is other for other in over)]
             near_rows.append(n)
@@ -185,7 +179,7 @@ def with_one_owner(
     return hints, mentions
 
 
-def _is_overlapping(one: Measure, other: Measure) -> bool:
+def _is_overlapping(one: Measure | Mention, other: Measure | ParsedHint) -> bool:
     return one.start < other.end and other.start < one.end
 
 

@@ -15,7 +15,7 @@ from index.answering.place_reader import PlaceReader, near_hints, possibly_near_
 from index.answering.place_text import place_text
 from index.answering.query import Query
 from index.answering.ranking import Ranker
-from index.answering.result import LocalizerResult, is_ambiguous, pair
+from index.answering.result import LocalizerResult, elapsed_ms, is_ambiguous, pair
 from index.answering.text_chunks import ChunkReader, reader_text, with_description_spans
 from index.asking.known_facts import KnownFacts
 from index.asking.questions import Questions
@@ -89,8 +89,8 @@ class PosteriorLocalizer:
         self.places: PlaceReader | None = None
         if len(gazetteer):
             centers_m = gallery.cells.center_m[:, :2].astype(np.float64)
-            of_map = gazetteer, model.text_encoder, centers_m, grid_m, meanings, names
-            self.places = PlaceReader(model.places, model.cues, *of_map)
+            map_arguments = gazetteer, model.text_encoder, centers_m, grid_m, meanings, names
+            self.places = PlaceReader(model.places, model.cues, *map_arguments)
         self.questions = Questions(
             self.nodes.nearby_objects, list(self.labels), palette, gazetteer, gallery.cells, landmarks
         )
@@ -101,7 +101,7 @@ class PosteriorLocalizer:
         """Implement CellLocalizer."""
         start = time.perf_counter()
         parsed = self.chunk_reader.parse([query.description for query in queries])
-        encode_ms = _elapsed_ms(start)
+        encode_ms = elapsed_ms(start)
         return [self._find(*each, encode_ms) for each in zip(queries, parsed, strict=True)]
 
     def _find(self, query: Query, hints: Sequence[ParsedHint], encode_ms: float) -> LocalizerResult:
@@ -111,8 +111,9 @@ class PosteriorLocalizer:
         hints = hints if language == ENGLISH else []
         warnings = _language_warnings(language)
         hints, bound_hints, mentions, place_evidence = self._read(query, language, hints)
-        timings = {"encode": encode_ms + _elapsed_ms(start)}
-        warnings += (*_unknown_name_warnings(mentions), *contradictions(mentions))
+        timings = {"encode": encode_ms + elapsed_ms(start)}
+        unknown = (f"'{mention.text}' was not found on the map" for mention in mentions if mention.form == "unknown")
+        warnings += (*unknown, *contradictions(mentions))
         known_facts = KnownFacts.from_text(bound_hints, mentions, list(self.labels), self._gazetteer)
         if not hints and place_evidence is None and reply_evidence is None:
             refusal, question = (
@@ -122,7 +123,7 @@ class PosteriorLocalizer:
             return LocalizerResult(None, refusal, timings_ms=timings, warnings=warnings, question=question)
         start = time.perf_counter()
         located = self._locate(query, hints, bound_hints, place_evidence, reply_evidence)
-        timings["search"] = _elapsed_ms(start)
+        timings["search"] = elapsed_ms(start)
         if located is None:
             return LocalizerResult(None, OUTSIDE_MAP, timings_ms=timings, warnings=warnings)
         start = time.perf_counter()
@@ -137,7 +138,7 @@ class PosteriorLocalizer:
             )
         elif self._is_uncertain(located, reply_evidence) and not _is_about_another_place(query):
             result = replace(result, question=self.questions.ask(located, known_facts, query.replies))
-        timings["estimate"] = _elapsed_ms(start)
+        timings["estimate"] = elapsed_ms(start)
         return replace(result, timings_ms=timings, warnings=warnings)
 
     def _is_uncertain(self, located: PositionDistribution, reply_evidence: ReplyEvidence | None) -> bool:
@@ -224,8 +225,7 @@ class PosteriorLocalizer:
         sentences = self.binding.sentences(hints, bound_hints)
         if not sentences:
             return np.empty(0, np.int64)
-        rows: Ints = self.ranker.search([self._encoded(sentences)], CANDIDATE_CELLS)[1][0]
-        return rows
+        return self.ranker.search([self._encoded(sentences)], CANDIDATE_CELLS)[1][0]
 
     def _encode(self, sentences: tuple[str, ...]) -> Levels:
         return self.ranker.retriever.encode_description(sentences)
@@ -285,11 +285,3 @@ def _language_warnings(language: str) -> tuple[str, ...]:
         return ()
     name = LANGUAGE_NAMES.get(language, f"'{language}'")
     return (f"the text seems to be in {name}: only names and nouns were used; English texts are understood completely",)
-
-
-def _unknown_name_warnings(mentions: Sequence[Mention]) -> tuple[str, ...]:
-    return tuple(f"'{mention.text}' was not found on the map" for mention in mentions if mention.form == "unknown")
-
-
-def _elapsed_ms(start: float) -> float:
-    return (time.perf_counter() - start) * 1000

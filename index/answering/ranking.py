@@ -59,12 +59,12 @@ class Ranker:
 
     def score(self, text: Levels, rows: npt.NDArray[np.int64]) -> Floats:
         """Return the scores of some cells, comparable with those of `rank`."""
-        whole = self.store.score(text.global_vectors[0].cpu().numpy(), rows)
+        global_scores = self.store.score(text.global_vectors[0].cpu().numpy(), rows)
         if self._is_global or not len(rows):
-            return whole
-        order = np.argsort(-whole, kind="stable")
-        scores = np.empty_like(whole)
-        scores[order] = self._refine(text, rows[order], whole[order])
+            return global_scores
+        order = np.argsort(-global_scores, kind="stable")
+        scores = np.empty_like(global_scores)
+        scores[order] = self._refine(text, rows[order], global_scores[order])
         return scores
 
     def temperature(self, num_hints: int) -> float:
@@ -75,10 +75,10 @@ class Ranker:
     def _is_global(self) -> bool:
         return self.table.is_empty or not self.depth
 
-    def _refine(self, text: Levels, rows: npt.NDArray[np.integer[Any]], whole: Floats) -> Floats:
+    def _refine(self, text: Levels, rows: npt.NDArray[np.integer[Any]], global_scores: Floats) -> Floats:
         """Return scores [C] of cells in global order; cells beyond the depth cannot rise above the others."""
         first = rows[: self.depth]
-        by_level = {**self.table.scores([text], first), "global": whole[None, : len(first)]}
+        by_level = {**self.table.scores([text], first), "global": global_scores[None, : len(first)]}
         refined = self.retriever.combine(by_level)[0]
-        rest = whole[len(first) :] + (refined - whole[: len(first)]).min()
+        rest = global_scores[len(first) :] + (refined - global_scores[: len(first)]).min()
         return np.concatenate([refined, rest]).astype(np.float32)

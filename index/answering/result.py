@@ -1,5 +1,6 @@
 """The result of a localizer, and the one function that turns it into an answer."""
 
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
@@ -131,6 +132,11 @@ def _heat_map(located: PositionDistribution) -> HeatMap:
         order = np.argsort(-weight, kind="stable")[:MAX_HEAT_POINTS]
     rows = np.column_stack([points_m[order], weight[order]])
     return HeatMap(spacing_m, tuple((round(x, 2), round(y, 2), p) for x, y, p in rows.tolist()))
+
+
+def elapsed_ms(start_s: float) -> float:
+    """Return the milliseconds since a `time.perf_counter()`."""
+    return (time.perf_counter() - start_s) * 1000
 
 
 def pair(values: Floats) -> tuple[float, float]:

@@ -10,7 +10,7 @@ from index.answering.answers import Method, ModelName
 from index.answering.filters import is_inside, log_prior
 from index.answering.query import Query
 from index.answering.ranking import Ranker
-from index.answering.result import LocalizerResult
+from index.answering.result import LocalizerResult, elapsed_ms
 from models.citymap.frame import Frame
 from models.citymap.gallery import Gallery
 from models.citymap.points import Ints
@@ -65,15 +65,15 @@ class VectorLocalizer:
         start = time.perf_counter()
         sentences = self.sentences([query.description for query in queries])
         texts = self.ranker.retriever.encode_texts(sentences)
-        encode_ms = _since(start)
+        encode_ms = elapsed_ms(start)
         start = time.perf_counter()
         ranked = self._rank(queries, texts)
-        search_ms = _since(start)
+        search_ms = elapsed_ms(start)
         start = time.perf_counter()
         ordered = [self._order(*each) for each in zip(queries, texts, ranked, strict=True)]
         positions = self._positions(queries, sentences, [rows for rows, *_ in ordered])
         distributions = [self._distribution(*each) for each in zip(ordered, positions, strict=True)]
-        timings = {"encode": encode_ms, "search": search_ms, "estimate": _since(start)}
+        timings = {"encode": encode_ms, "search": search_ms, "estimate": elapsed_ms(start)}
         return [
             LocalizerResult(located, None if located else NO_CELL_WITHIN, timings_ms=timings)
             for located in distributions
@@ -108,11 +108,10 @@ class VectorLocalizer:
             return np.zeros(0)
         logits = scores.astype(np.float64) / self.ranker.temperature(hints)
         logits = logits + log_prior(query, self._centers[rows], self.frame)
-        is_whole = query.within is not None or query.prior is not None
-        unseen = 0 if is_whole else len(self._centers) - len(rows)
+        is_complete = query.within is not None or query.prior is not None
+        unseen = 0 if is_complete else len(self._centers) - len(rows)
         rest = np.log(unseen) + logits.min() if unseen else -np.inf
-        probability: Floats = np.exp(logits - np.logaddexp(logsumexp(logits), rest))
-        return probability
+        return np.exp(logits - np.logaddexp(logsumexp(logits), rest))
 
     def _positions(
         self, queries: Sequence[Query], sentences: Sequence[tuple[str, ...]], rows: Sequence[Ints]
@@ -148,7 +147,3 @@ class VectorLocalizer:
             spacing_m=self.grid_m if error_m is None else error_m * 12**0.5,
             extent_m=self._extent_m,
         )
-
-
-def _since(start: float) -> float:
-    return (time.perf_counter() - start) * 1000

@@ -25,16 +25,12 @@ _CHOICE_TEXTS: Final = {
 
 @dataclass(frozen=True, slots=True)
 class QuestionSpec:
-    """A question: its kind and the names it is about.
+    """A question: its kind and the names it is about."""
 
-    Attributes:
-        kind: near, way and colour ask whether an object is near, where the nearest lies, and its colour; the other
-            kinds ask for the name of a street, a visible place, a cross street or a house.
-        names: the class, followed by the offered colours; empty for open questions.
-    """
-
+    # Near, way and colour ask whether an object is near, where the nearest lies, and its colour; the other kinds ask
+    # for the name of a street, a visible place, a cross street or a house.
     kind: QuestionKind
-    names: tuple[str, ...] = ()
+    names: tuple[str, ...] = ()  # the class, followed by the offered colours; empty for open questions
 
     @classmethod
     def parse(cls, text: str) -> "QuestionSpec | None":
@@ -43,10 +39,10 @@ class QuestionSpec:
         if kind not in get_args(QuestionKind) or bool(colon) == (kind in OPEN_QUESTIONS):
             return None
         names = tuple(rest.split("|")) if kind == "colour" else (rest,) if colon else ()
-        is_whole = (
+        is_valid = (
             all(names) and len(set(names)) == len(names) and (kind != "colour" or 1 < len(names) <= MAX_CHOICES + 1)
         )
-        return cls(cast("QuestionKind", kind), names) if is_whole else None
+        return cls(cast("QuestionKind", kind), names) if is_valid else None
 
     @property
     def is_open(self) -> bool:

@@ -55,10 +55,9 @@ class IndexJob:
     within: Region | None = None  # the region of an OpenStreetMap file to index; None for all of it
 
     def build(self, report: Progress = no_progress) -> Path:
-        """Build a version in this process and return its directory.
+        """Build a version in this process and return its directory; after an error, older versions stay.
 
-        Raise DataError if the map or the index directory cannot be used, WeightsError, or StoreUnavailable; older
-        versions stay.
+        Raise DataError if the map or the index directory cannot be used, WeightsError, or StoreUnavailable.
         """
         models = self._load_models(report)
         if current := self._current_version(models):
@@ -97,9 +96,9 @@ class IndexJob:
         return shards.path(shard)
 
     def merge(self, count: int, report: Progress = no_progress) -> Path:
-        """Build a version from the data of `count` shards, and remove that data.
+        """Build a version from the data of `count` shards, and remove that data; errors as `build`.
 
-        Raise IndexBroken if data is missing, damaged, or of another map or model, and remove nothing; or as `build`.
+        If data is missing, damaged, or of another map or model, raise IndexBroken and remove nothing.
         """
         models = self._load_models(report)
         shards = self._shard_store(models)
@@ -168,7 +167,6 @@ class IndexJob:
             yield path
 
     def _current_version(self, models: _LoadedModels) -> Path | None:
-        """Return the default version's directory if it has this map, model, store and levels; else None."""
         if not self.keep_current:
             return None
         try:

@@ -122,13 +122,13 @@ def read_manifest(directory: Path, expected: str | None = None) -> Manifest:
     path = directory / MANIFEST
     try:
         content = path.read_bytes()
-        given = FormatOnly.model_validate_json(content).format
+        format_number = FormatOnly.model_validate_json(content).format
     except OSError as error:
         raise IndexBroken(f"{path} is missing; {ADVICE}") from error
     except ValidationError as error:
         raise IndexBroken(f"{path} is broken; {ADVICE}") from error
-    if given != FORMAT:
-        raise IndexBroken(f"{directory} has format {given}, this hereabouts reads {FORMAT}; {ADVICE}")
+    if format_number != FORMAT:
+        raise IndexBroken(f"{directory} has format {format_number}, this hereabouts reads {FORMAT}; {ADVICE}")
     if expected is not None and hashlib.sha256(content).hexdigest() != expected:
         raise IndexBroken(f"{path} was changed after it was written; {ADVICE}")
     try:
@@ -158,10 +158,10 @@ def check_sums(directory: Path, manifest: Manifest) -> None:
     for name, record in manifest.files.items():
         file = directory / name
         try:
-            is_whole = sha256(file) == record.sha256
+            is_intact = sha256(file) == record.sha256
         except OSError as error:
             raise IndexBroken(f"{file} cannot be read ({error.strerror}); check its disk, or {ADVICE}") from error
-        if not is_whole:
+        if not is_intact:
             raise IndexBroken(f"{file} was changed after it was written; {ADVICE}")
 
 

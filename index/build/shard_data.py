@@ -69,9 +69,9 @@ class ShardData:
         label, rgb = torch.from_numpy(objects.labels(data.gallery)[1]), torch.from_numpy(objects.rgb.astype(np.float32))
         with torch.inference_mode():
             words = likelihood.colour_word_p(rgb, data.palette)
-        rows_of_statements = statement_rows(likelihood, surroundings, label, rgb, words)
+        statements = statement_rows(likelihood, surroundings, label, rgb, words)
         scanned = surroundings if isinstance(surroundings, ScanNeighbourIndex) else None
-        return cls(vectors, levels, rows_of_statements, scanned)
+        return cls(vectors, levels, statements, scanned)
 
     def save(self, directory: Path) -> None:
         """Write the files that `load` reads."""

@@ -103,10 +103,7 @@ class ShardStore:
         return f"is damaged: {', '.join(changed)} was changed after it was written" if changed else None
 
     def write(self, shard: Shard, part: ShardData, rows: range, cells: int) -> None:
-        """Write the data of a shard, completely or not at all; data that another process wrote first stays.
-
-        Raise OSError or SafetensorError if the data cannot be written.
-        """
+        """Write the data of a shard, completely or not at all; data that another process wrote first stays."""
         path = self.path(shard)
         if path.exists():
             if self._fault(path) is None:

@@ -22,12 +22,12 @@ def ambiguity(data: MapData, queries: Queries, hints: Sequence[tuple[Hint, ...]]
     the number of matching hints; ties are in random order.
     """
     symbols, cells = _cell_statements(data)
-    asked_statements = _query_statements(symbols, hints)
+    query_statements = _query_statements(symbols, hints)
     truth = queries.truth
     better, equal = np.zeros(len(truth)), np.ones(len(truth))
     for start in range(0, len(truth), QUERIES_PER_BLOCK):
         rows = slice(start, start + QUERIES_PER_BLOCK)
-        fits = (asked_statements[rows] @ cells.T).toarray()
+        fits = (query_statements[rows] @ cells.T).toarray()
         own = fits[np.arange(len(fits)), truth[rows]][:, None]
         better[rows], equal[rows] = (fits > own).sum(axis=1), (fits == own).sum(axis=1)
     return {
@@ -53,14 +53,14 @@ def _cell_statements(data: MapData) -> tuple[dict[tuple[str, str | None, int], i
 
 def _query_statements(number: dict[tuple[str, str | None, int], int], hints: Sequence[tuple[Hint, ...]]) -> csr_array:
     """Return how often each query makes each statement [Q, S]."""
-    asked_statements = [
+    query_statements = [
         [number.get((h.label, h.colour, DIRECTIONS.index(h.direction)), -1) for h in query_hints]
         for query_hints in hints
     ]
-    query = np.repeat(np.arange(len(asked_statements)), [len(a) for a in asked_statements])
-    symbol = np.concatenate([np.array(a, dtype=np.intp) for a in asked_statements])
+    query = np.repeat(np.arange(len(query_statements)), [len(a) for a in query_statements])
+    symbol = np.concatenate([np.array(a, dtype=np.intp) for a in query_statements])
     known = symbol >= 0
     return csr_array(
         (np.ones(int(known.sum()), np.float32), (query[known], symbol[known])),
-        shape=(len(asked_statements), len(number)),
+        shape=(len(query_statements), len(number)),
     )

@@ -25,7 +25,7 @@ class RoundTrips:
     words: npt.NDArray[np.int64]  # [P]; 0 without description
     error_m: Floats  # [P]; inf in another scene and without estimate
     is_ok: npt.NDArray[np.bool_]  # [P] whether the status is "ok"
-    is_held: npt.NDArray[np.bool_]  # [P] whether the 90 % radius contains the position
+    is_in_radius: npt.NDArray[np.bool_]  # [P] whether the 90 % radius contains the position
 
 
 def draw_positions(localizer: Localizer, count: int, rng: np.random.Generator) -> Floats:
@@ -55,7 +55,7 @@ def evaluate_descriptions(localizer: Localizer, positions: int, seed: int, progr
         "within": {str(metres): float((round_trips.error_m <= metres).mean()) for metres in WITHIN_M},
         "median_m": median_m if np.isfinite(median_m) else None,
         "ok": float(round_trips.is_ok.mean()),
-        "held": float(round_trips.is_held.mean()),
+        "held": float(round_trips.is_in_radius.mean()),
         "words": float(np.median(word_counts)) if len(word_counts) else None,
     }
 
@@ -66,16 +66,16 @@ def localize_descriptions(localizer: Localizer, positions_m: Floats, progress: P
     rows: list[tuple[int, float, bool, bool]] = []
     for start in range(0, len(positions_m), DESCRIPTIONS_PER_BATCH):
         progress("ask", start, len(positions_m))
-        some_m = positions_m[start : start + DESCRIPTIONS_PER_BATCH]
-        descriptions = [localizer.describe((x, y)) for x, y in some_m.tolist()]
+        batch_m = positions_m[start : start + DESCRIPTIONS_PER_BATCH]
+        descriptions = [localizer.describe((x, y)) for x, y in batch_m.tolist()]
         answers = iter(localizer.localize([Query(one.description) for one in descriptions if one is not None]))
         rows += [
             NO_DESCRIPTION if one is None else _row(one, next(answers), position, scenes)
-            for one, position in zip(descriptions, some_m, strict=True)
+            for one, position in zip(descriptions, batch_m, strict=True)
         ]
     progress("ask", len(positions_m), len(positions_m))
-    words, error_m, is_ok, is_held = (np.array(column) for column in zip(*rows, strict=True))
-    return RoundTrips(words, error_m, is_ok, is_held)
+    words, error_m, is_ok, is_in_radius = (np.array(column) for column in zip(*rows, strict=True))
+    return RoundTrips(words, error_m, is_ok, is_in_radius)
 
 
 def _row(

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from index.answering.query import Query
 from index.answering.result import CellLocalizer
 from index.evaluation.ambiguity import ambiguity
-from index.evaluation.localizers import on_some_cells
+from index.evaluation.localizers import restrict_localizer
 from index.evaluation.predictions import PREDICTIONS_FILE, Predictions
 from index.evaluation.report import write_report
 from index.evaluation.scoring import score
@@ -21,8 +21,8 @@ from models.citymap.types import Floats, Progress
 from models.errors import DataError
 from models.training.metrics import LOCALIZATION_KS, RETRIEVAL_KS
 
-RANKED_CELLS_KEPT = 25  # per query; the recall curve ends here
-POSITIONS_KEPT = max(*RETRIEVAL_KS, *LOCALIZATION_KS)
+STORED_CELLS = 25  # per query; the recall curve ends here
+STORED_POSITIONS = max(*RETRIEVAL_KS, *LOCALIZATION_KS)
 QUERIES_PER_BATCH = 64
 
 
@@ -36,8 +36,7 @@ def evaluate(
 ) -> dict[str, Any]:
     """Localize queries, save the predictions and score them; return the report of `index.evaluation.scoring.score`.
 
-    `report_dir` gets predictions.npz, report.json, report.md and the plots. With `grow_m`, the radii of a growing
-    gallery, it has predictions for each (`grow_gallery`).
+    With `grow_m`, the radii of a growing gallery, it has predictions for each (`grow_gallery`).
     """
     report = progress or (lambda stage, done, total: None)
     predictions = predict(data, queries, localizer, report)
@@ -45,7 +44,7 @@ def evaluate(
         report("match hints", 0, 0)
         predictions.facts["ambiguity"] = ambiguity(data, queries, queries.hints)
     grown = [
-        (radius, predict(*part, on_some_cells(localizer, part[0], rows), report))
+        (radius, predict(*part, restrict_localizer(localizer, part[0], rows), report))
         for radius, part, rows in grow_gallery(data, queries, grow_m)
     ]
     if report_dir:
@@ -56,14 +55,14 @@ def evaluate(
 
 def predict(data: MapData, queries: Queries, localizer: CellLocalizer, progress: Progress) -> Predictions:
     """Predict cells and positions for each query."""
-    total, listed = len(queries), min(RANKED_CELLS_KEPT, len(data.cells))
+    total, listed = len(queries), min(STORED_CELLS, len(data.cells))
     ranked, scores = np.full((total, listed), -1, np.int32), np.full((total, listed), -np.inf, np.float32)
-    positions = np.zeros((total, min(POSITIONS_KEPT, listed), 2))
+    positions = np.zeros((total, min(STORED_POSITIONS, listed), 2))
     probability, radius_m = np.zeros(total), np.full((total, 2), data.cells.extent_m)
     for start in range(0, total, QUERIES_PER_BATCH):
         progress("ask", start, total)
         batch = [
-            Query("\n".join(sentences), top_k=POSITIONS_KEPT)
+            Query("\n".join(sentences), top_k=STORED_POSITIONS)
             for sentences in queries.sentences[start : start + QUERIES_PER_BATCH]
         ]
         for q, result in enumerate(localizer.find(batch), start):
@@ -117,11 +116,11 @@ def grow_gallery(
     cells, known = data.cells, np.flatnonzero(queries.truth >= 0)
     away = np.full(len(cells), np.inf)
     for scene in sorted(set(queries.scenes)):
-        of_scene = known[np.array(queries.scenes)[known] == scene]
-        here = np.array(cells.scenes) == scene
-        if len(of_scene):
-            away[here] = np.linalg.norm(
-                cells.center_m[here, :2] - _central_position(queries.positions_m[of_scene]), axis=1
+        scene_queries = known[np.array(queries.scenes)[known] == scene]
+        in_scene = np.array(cells.scenes) == scene
+        if len(scene_queries):
+            away[in_scene] = np.linalg.norm(
+                cells.center_m[in_scene, :2] - _central_position(queries.positions_m[scene_queries]), axis=1
             )
     chosen = known[away[queries.truth[known]] <= radii[0]]
     if not len(chosen):
@@ -132,15 +131,14 @@ def grow_gallery(
         position = np.full(len(cells), -1)
         position[rows] = np.arange(len(rows))
         gallery = replace(data.gallery, cells=cells.take(rows))
-        asked_here = queries.take(chosen)
-        part = replace(asked_here, truth=position[asked_here.truth], hints=None)
+        chosen_queries = queries.take(chosen)
+        part = replace(chosen_queries, truth=position[chosen_queries.truth], hints=None)
         steps.append((radius, (replace(data, gallery=gallery), part), rows))
     return steps
 
 
 def _central_position(positions_m: Floats) -> Floats:
-    middle: Floats = positions_m[np.linalg.norm(positions_m - positions_m.mean(axis=0), axis=1).argmin()]
-    return middle
+    return positions_m[np.linalg.norm(positions_m - positions_m.mean(axis=0), axis=1).argmin()]
 
 
 def save_run(report_dir: Path, predictions: Predictions, grown: Sequence[tuple[float, Predictions]] = ()) -> None:

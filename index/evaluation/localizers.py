@@ -52,22 +52,23 @@ def posterior_of_map(
     gazetteer: Gazetteer = EMPTY_GAZETTEER,
 ) -> PosteriorLocalizer:
     """Return the hint posterior of a map."""
-    given = model, data.gallery, data.palette, data.frame, surroundings, ranker
-    return PosteriorLocalizer(*given, gazetteer, data.grid_m)
+    arguments = model, data.gallery, data.palette, data.frame, surroundings, ranker
+    return PosteriorLocalizer(*arguments, gazetteer, data.grid_m)
 
 
-def on_some_cells(localizer: CellLocalizer, data: MapData, rows: Ints) -> CellLocalizer:
+def restrict_localizer(localizer: CellLocalizer, data: MapData, rows: Ints) -> CellLocalizer:
     """Return a localizer that knows only the cells `rows` of its gallery; `data` has these cells alone."""
     assert isinstance(localizer, VectorLocalizer | PosteriorLocalizer)
-    ranker = ranker_on_some_cells(localizer.ranker, rows)
+    ranker = restrict_ranker(localizer.ranker, rows)
     if isinstance(localizer, VectorLocalizer):
         how = localizer.refiner, localizer.sentences, localizer.depth
         return VectorLocalizer(ranker, data.gallery, data.frame, data.grid_m, *how)
-    parts = count_parts(localizer.surroundings.objects, localizer.gallery.cells, rows)
-    given = localizer.weights, data.gallery, data.palette, data.frame, localizer.surroundings.take(rows, parts), ranker
-    if localizer.places is None:
-        return PosteriorLocalizer(*given, grid_m=data.grid_m)
-    return PosteriorLocalizer(*given, localizer.places.gazetteer, data.grid_m, localizer.places.meanings)
+    around, places = localizer.surroundings, localizer.places
+    around = around.take(rows, count_parts(around.objects, localizer.gallery.cells, rows))
+    arguments = localizer.weights, data.gallery, data.palette, data.frame, around, ranker
+    if places is None:
+        return PosteriorLocalizer(*arguments, grid_m=data.grid_m)
+    return PosteriorLocalizer(*arguments, places.gazetteer, data.grid_m, places.meanings)
 
 
 def count_parts(objects: MapObjects, cells: CellTable, rows: Ints) -> Ints:
@@ -79,7 +80,7 @@ def count_parts(objects: MapObjects, cells: CellTable, rows: Ints) -> Ints:
     return np.bincount(number, minlength=len(objects.instance)).astype(np.int32)
 
 
-def ranker_on_some_cells(ranker: Ranker, rows: Ints) -> Ranker:
+def restrict_ranker(ranker: Ranker, rows: Ints) -> Ranker:
     """Return a ranker of some of the cells of a gallery."""
     vectors = FaissStore.from_vectors(ranker.store.vectors(rows))
     return Ranker(ranker.retriever, vectors, ranker.table.take(rows), ranker.depth)

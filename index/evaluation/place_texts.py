@@ -47,9 +47,7 @@ def evaluate_texts(
 ) -> dict[str, Any]:
     """Localize texts with known positions; texts with a start get a prior of 800 m around it.
 
-    The report, also written as told.json and told.md, has the shares within some distances, the median error, the
-    coverage of p50 and p90 with its 95 % interval and the calibration, of all texts and by construction. Raise
-    DataError if the map has no georeference.
+    The report is also written as told.json and told.md. DataError if the map has no georeference.
     """
     if not localizer.frame.is_georeferenced:
         raise DataError(

@@ -75,8 +75,7 @@ class Predictions:
 
     def distances_m(self) -> Floats:
         """Return the distances [Q, J] to the truth in the common frame, also in another scene."""
-        distance: Floats = np.linalg.norm(self.predicted_m - self.positions_m[:, None], axis=2)
-        return distance
+        return np.linalg.norm(self.predicted_m - self.positions_m[:, None], axis=2)
 
     def center_errors_m(self, rows: Ints) -> Floats:
         """Return the distances [Q, J] from cell centres to the truth in the plane; infinite in another scene."""
@@ -84,5 +83,4 @@ class Predictions:
         return np.where(self._same_scene(rows), distance, np.inf)
 
     def _same_scene(self, rows: Ints) -> npt.NDArray[np.bool_]:
-        same: npt.NDArray[np.bool_] = (rows >= 0) & (self.cell_scenes[rows] == self.scenes[:, None])
-        return same
+        return (rows >= 0) & (self.cell_scenes[rows] == self.scenes[:, None])

@@ -6,14 +6,13 @@ from typing import Any, Final
 
 import numpy as np
 
-from index.answering.answers import Answer
 from index.answering.localizer import Localizer
 from index.answering.query import Query
 from index.evaluation.report import Table
 from index.evaluation.simulated_person import MapTruth, SimulatedPerson
 from models.citymap.queries import Queries
 from models.citymap.templates import render_hint
-from models.citymap.types import Floats, Progress
+from models.citymap.types import Progress
 from models.errors import DataError
 from models.sources.source import Source
 
@@ -38,7 +37,7 @@ def hold_dialogue(localizer: Localizer, text: str, person: SimulatedPerson, scen
     scenes = dict(zip(localizer.gallery.cells.ids, localizer.gallery.cells.scenes, strict=True))
     while True:
         [answer] = localizer.localize([query])
-        error = _error(answer, person.position_m)
+        error = float(np.hypot(*(answer.estimate.position - person.position_m))) if answer.estimate else np.inf
         is_there = bool(answer.candidates) and scenes[answer.candidates[0].cell_id] == scene
         dialogue.error_m.append(error if is_there else np.inf)
         dialogue.probability.append(answer.estimate.probability if answer.estimate else 0.0)
@@ -47,10 +46,6 @@ def hold_dialogue(localizer: Localizer, text: str, person: SimulatedPerson, scen
             return dialogue
         dialogue.kinds.append(answer.question.id.split(":")[0])
         query = replace(query, replies=(*query.replies, person.reply(answer.question)))
-
-
-def _error(answer: Answer, position_m: Floats) -> float:
-    return float(np.hypot(*(answer.estimate.position - position_m))) if answer.estimate else np.inf
 
 
 def vague_texts(queries: Queries, rows: Sequence[int], rng: np.random.Generator, *, is_plain: bool) -> list[str]:
@@ -70,10 +65,9 @@ def vague_texts(queries: Queries, rows: Sequence[int], rng: np.random.Generator,
 def evaluate_questions(
     localizer: Localizer, source: Source, texts: int, seed: int, progress: Progress, *, is_plain: bool = False
 ) -> dict[str, Any]:
-    """Describe random positions by two hints and answer the questions.
+    """Describe random positions by two hints and answer the questions; DataError if the index has other cells.
 
-    With `is_plain`, hints have classes only, without directions and colours. Raise DataError if the index was built
-    from other data.
+    With `is_plain`, hints have classes only, without directions and colours.
     """
     if localizer.gallery.cells.ids != source.data.cells.ids:
         raise DataError("the index has other cells than the data; build the index with the same --split")

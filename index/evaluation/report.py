@@ -115,8 +115,7 @@ def _cells(row: dict[str, Any]) -> list[str]:
 
 def _recall_curve(p: Predictions) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
     hits = (p.ranked == p.queried_cells[:, None]) & (p.queried_cells[:, None] >= 0)
-    curve: np.ndarray[tuple[int], np.dtype[np.float64]] = np.cumsum(hits.mean(axis=0))
-    return curve
+    return np.cumsum(hits.mean(axis=0))
 
 
 def _draw(path: Path, draw: Callable[[Axes], None]) -> None:
@@ -192,15 +191,15 @@ def _draw_maps(path: Path, p: Predictions, report: dict[str, Any]) -> None:
 
 
 def _draw_map(axes: Axes, p: Predictions, scene: str, errors_m: Floats) -> None:
-    of_scene = p.scenes == scene
+    in_scene = p.scenes == scene
     x, y = p.cell_centers_m[p.cell_scenes == scene].T
     axes.scatter(x, y, s=2, color="#e3e6eb", linewidths=0)
     for low, high, colour, _ in ERROR_BANDS:
-        x, y = p.positions_m[of_scene & _between(errors_m, low, high)].T
+        x, y = p.positions_m[in_scene & _between(errors_m, low, high)].T
         axes.scatter(x, y, s=5, color=colour, linewidths=0)
     axes.set_aspect("equal")
     axes.set(xlabel="east (m)", ylabel="north (m)")
-    axes.set_title(f"{scene}: {of_scene.sum()} queries", fontsize=9)
+    axes.set_title(f"{scene}: {in_scene.sum()} queries", fontsize=9)
     axes.tick_params(labelsize=7)
 
 

@@ -10,8 +10,7 @@ import numpy.typing as npt
 from index.answering.posterior_localizer import PosteriorLocalizer
 from index.answering.ranking import Ranker
 from index.answering.result import CellLocalizer
-from index.answering.vector_localizer import VectorLocalizer
-from index.evaluation.candidates import candidate_recall, candidate_table
+from index.answering.vector_localizer import VectorLocalizer, raw_sentences
 from index.evaluation.evaluation import predict
 from index.evaluation.localizers import posterior_of_map, vectors_of_map
 from index.evaluation.report import Table
@@ -30,6 +29,8 @@ from models.posterior.neighbours.neighbour_index import NeighbourIndex
 
 MAX_QUERIES = 300
 SEED = 0
+CANDIDATE_COUNTS = (10, 20, 50, 100, 200, 500)  # sizes of the candidate set
+SOURCES = ("vector index, raw text", "vector index, read and rendered", "inverted list", "both, so many of each")
 
 
 def robustness(
@@ -37,8 +38,7 @@ def robustness(
 ) -> dict[str, Any]:
     """Evaluate retriever and posterior under every trial with the same queries, and the candidates' recall.
 
-    At most MAX_QUERIES queries are used; DataError if they have no hints. The figures of a trial are recalls, coverage
-    of the radii and calibration.
+    At most MAX_QUERIES queries are used; DataError if they have no hints.
     """
     if queries.hints is None:
         raise DataError("robustness needs the hints behind the texts; give a data set or a map with --data")
@@ -93,6 +93,32 @@ def _trials_table(rows: Sequence[dict[str, Any]]) -> Table:
     return head, table_rows
 
 
+def candidate_recall(queries: Queries, posterior: PosteriorLocalizer) -> list[dict[str, Any]]:
+    """Return for each of SOURCES the share of queries whose best cell is among the first N candidates."""
+    deepest = min(CANDIDATE_COUNTS[-1], len(posterior.gallery.cells))
+    rank_of_truth = np.full((len(SOURCES), len(queries)), CANDIDATE_COUNTS[-1])
+    retriever = posterior.ranker.retriever
+    descriptions = ["\n".join(sentences) for sentences in queries.sentences]
+    rendered = posterior.sentences(descriptions)
+    for q, (raw, sentences) in enumerate(zip(raw_sentences(descriptions), rendered, strict=True)):
+        texts = retriever.encode_texts([raw, sentences or raw])
+        hints = posterior.chunk_reader.parse(descriptions[q : q + 1])[0]
+        by_list = posterior.nodes.cell_scores(posterior.binding.bind(hints)) if hints else np.zeros(deepest)
+        orders = [*posterior.ranker.search(texts, deepest)[1], np.argsort(-by_list, kind="stable")[:deepest]]
+        for n, order in enumerate(orders):
+            position = np.flatnonzero(order == queries.truth[q])
+            rank_of_truth[n, q] = position[0] if len(position) else CANDIDATE_COUNTS[-1]
+        rank_of_truth[-1, q] = rank_of_truth[1:-1, q].min()
+    shares = [{str(size): float((row < size).mean()) for size in CANDIDATE_COUNTS} for row in rank_of_truth]
+    return [{"source": name, "recall": share} for name, share in zip(SOURCES, shares, strict=True)]
+
+
+def candidate_table(rows: Sequence[dict[str, Any]], text: str) -> Table:
+    """Return the table of candidate recall for one kind of text."""
+    head = (f"{text}: best cell among the first", *(f"{size}" for size in CANDIDATE_COUNTS))
+    return head, [(row["source"], *(f"{row['recall'][str(size)]:.3f}" for size in CANDIDATE_COUNTS)) for row in rows]
+
+
 def sample_queries(queries: Queries) -> Queries:
     """Return at most MAX_QUERIES of the queries, drawn at random."""
     rows = np.random.default_rng(SEED).permutation(len(queries))[:MAX_QUERIES]
@@ -112,10 +138,10 @@ def nearest_hints(
             continue
         nodes_m = around.positions_m(nodes)
         nearest = np.hypot(*(nodes_m - position).T).argmin()
-        here = around.around(nodes[[nearest]])
-        offset = position - (nodes_m[nearest] - here.offset_m)
+        neighbours = around.around(nodes[[nearest]])
+        offset = position - (nodes_m[nearest] - neighbours.offset_m)
         nearest = np.argsort(np.hypot(*offset.T), kind="stable")[:count]
-        hints.append(tuple(_hint(data, around.objects, int(here.part[k]), offset[k]) for k in nearest))
+        hints.append(tuple(_hint(data, around.objects, int(neighbours.part[k]), offset[k]) for k in nearest))
     return hints
 
 
@@ -131,7 +157,7 @@ class DamagedMap:
     """An outdated map."""
 
     data: MapData
-    is_kept: npt.NDArray[np.bool_]  # [R] which of the original parts remain
+    is_remaining: npt.NDArray[np.bool_]  # [R] which of the original parts remain
 
 
 def _damage_map(data: MapData, trial: Trial, rng: np.random.Generator) -> DamagedMap | None:
@@ -149,35 +175,34 @@ def _damage_map(data: MapData, trial: Trial, rng: np.random.Generator) -> Damage
         changed = np.where(hit[number], names[rng.integers(len(names), size=len(hit))][number], labels)
         relabelled = replace(gallery, labels=tuple(changed.tolist()))
         return DamagedMap(replace(data, gallery=relabelled), np.ones(len(parts.instance), np.bool_))
-    is_kept = ~hit[number][parts.instance]
-    is_kept[parts.starts[:-1]] = True  # a cell keeps at least one part
-    count = np.concatenate([[0], np.cumsum(is_kept)])
-    columns = {f.name: getattr(parts, f.name)[is_kept] for f in fields(parts) if f.name != "starts"}
+    is_remaining = ~hit[number][parts.instance]
+    is_remaining[parts.starts[:-1]] = True  # a cell keeps at least one part
+    count = np.concatenate([[0], np.cumsum(is_remaining)])
+    columns = {f.name: getattr(parts, f.name)[is_remaining] for f in fields(parts) if f.name != "starts"}
     cells = replace(
         gallery.cells,
         content=PartTable(starts=count[parts.starts], **columns),
-        sample=_kept_sampler(gallery.cells, is_kept),
+        sample=_remaining_sampler(gallery.cells, is_remaining),
     )
-    return DamagedMap(replace(data, gallery=replace(gallery, cells=cells)), is_kept)
+    return DamagedMap(replace(data, gallery=replace(gallery, cells=cells)), is_remaining)
 
 
-def _kept_sampler(cells: CellTable, is_kept: npt.NDArray[np.bool_]) -> Sampler | None:
+def _remaining_sampler(cells: CellTable, is_remaining: npt.NDArray[np.bool_]) -> Sampler | None:
     sample, starts = cells.sample, cells.parts.starts
-    return sample and (lambda chosen: sample(chosen)[is_kept[ranges(starts[chosen], starts[chosen + 1])]])
+    return sample and (lambda chosen: sample(chosen)[is_remaining[ranges(starts[chosen], starts[chosen + 1])]])
 
 
 def _instance_scenes(gallery: Gallery) -> list[str]:
     scenes = np.full(len(gallery.labels), "", dtype=object)
     scenes[gallery.cells.parts.instance] = np.array(gallery.cells.scenes, dtype=object)[gallery.cells.parts.cube]
-    names: list[str] = scenes.tolist()
-    return names
+    return scenes.tolist()
 
 
-def _count_kept_parts(objects: MapObjects, parts: PartTable, is_kept: npt.NDArray[np.bool_]) -> Ints:
+def _count_remaining_parts(objects: MapObjects, parts: PartTable, is_remaining: npt.NDArray[np.bool_]) -> Ints:
     """Return the number [P] of kept parts of each object; 0 for an instance that lost most parts."""
     if objects.are_parts:
-        return is_kept.astype(np.int32)
-    remaining = np.bincount(parts.instance[is_kept], minlength=len(objects.instance))
+        return is_remaining.astype(np.int32)
+    remaining = np.bincount(parts.instance[is_remaining], minlength=len(objects.instance))
     return np.where(2 * remaining > objects.parts, remaining, 0).astype(np.int32)
 
 
@@ -186,7 +211,7 @@ def _damaged_localizers(
 ) -> tuple[VectorLocalizer, PosteriorLocalizer]:
     data, ranker = damage.data, vectors.ranker
     around = posterior.surroundings
-    parts = _count_kept_parts(around.objects, posterior.gallery.cells.parts, damage.is_kept)
+    parts = _count_remaining_parts(around.objects, posterior.gallery.cells.parts, damage.is_remaining)
     surroundings = around.take(np.arange(len(data.cells)), parts)
     encoded = Ranker.from_cells(ranker.retriever, data.cells, data.gallery.labels, ranker.depth)
     return vectors_of_map(data, encoded), posterior_of_map(posterior.weights, data, encoded, surroundings)

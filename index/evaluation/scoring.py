@@ -93,7 +93,6 @@ def calibration(probability: Floats, hit: npt.NDArray[np.bool_]) -> dict[str, An
 
 
 def _intervals(p: Predictions, errors_m: Floats) -> dict[str, Any]:
-    """Return 95 % intervals of the recalls by bootstrap over queries."""
     retrieval, localization = retrieval_hits(p.ranked, p.queried_cells), localization_hits(errors_m)
     hits = np.column_stack([*retrieval.values(), *(hit for by in localization.values() for hit in by.values())])
     total = len(hits)

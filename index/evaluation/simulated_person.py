@@ -146,7 +146,7 @@ class SimulatedPerson:
         return str(self.rng.choice(others)) if others else right
 
     def _street(self) -> str | None:
-        return self._one_of_alike(self.truth.names_near("street", self.position_m, STREET_REACH_M))
+        return self._nearest(self.truth.names_near("street", self.position_m, STREET_REACH_M))
 
     def _place(self) -> str | None:
         """Return a name that the person can read, preferring near signs."""
@@ -165,12 +165,12 @@ class SimulatedPerson:
 
     def _corner(self) -> str | None:
         street = self._street()
-        return None if street is None else self._one_of_alike(self.truth.crossing(self.position_m, street))
+        return None if street is None else self._nearest(self.truth.crossing(self.position_m, street))
 
-    def _one_of_alike(self, near: Sequence[tuple[float, str]]) -> str | None:
+    def _nearest(self, near: Sequence[tuple[float, str]]) -> str | None:
         """Return the nearest name; of several at the same distance, as at a corner, a random one."""
-        alike = [name for metres, name in near if metres <= near[0][0] + TIE_M]
-        return alike[int(self.rng.integers(len(alike)))] if alike else None
+        ties = [name for metres, name in near if metres <= near[0][0] + TIE_M]
+        return ties[int(self.rng.integers(len(ties)))] if ties else None
 
     def _idea(self) -> float:
         return float(np.exp(self.rng.normal(0, DISTANCE_LOG_SIGMA)))

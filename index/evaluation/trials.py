@@ -48,7 +48,7 @@ def all_trials(data: MapData) -> list[Trial]:
     trials += [
         Trial(
             "free wording, 3 hints, no colours",
-            _say_freely(free, lambda hints, rng: _without_colours(_random_hints(3)(hints, rng))),
+            _say_freely(free, lambda hints, rng: tuple(replace(h, colour=None) for h in _random_hints(3)(hints, rng))),
         ),
         Trial("free wording, one hint of six wrong", _say_freely(free, _with_one_wrong(words))),
     ]
@@ -68,10 +68,6 @@ def _say_in_templates(change: Change) -> Say:
 def _random_hints(count: int | None) -> Change:
     """Return a change that draws some hints, or all of them, in random order."""
     return lambda hints, rng: tuple(hints[i] for i in rng.permutation(len(hints))[:count])
-
-
-def _without_colours(hints: tuple[Hint, ...]) -> tuple[Hint, ...]:
-    return tuple(replace(hint, colour=None) for hint in hints)
 
 
 def _say_freely(wording: Wording, change: Change) -> Say:

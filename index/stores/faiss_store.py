@@ -91,10 +91,10 @@ class FaissStore:
     def _params(self, chosen: npt.NDArray[np.bool_] | None, lists: int) -> Any:
         """Return FAISS's parameters for a search among chosen rows [N] (None for all) in a number of lists."""
         kinds: Any = faiss  # the constructors are patched at import
-        of_rows = {} if chosen is None else {"sel": kinds.IDSelectorBitmap(np.packbits(chosen, bitorder="little"))}
+        selector = {} if chosen is None else {"sel": kinds.IDSelectorBitmap(np.packbits(chosen, bitorder="little"))}
         if self._in_lists:
-            return kinds.SearchParametersIVF(nprobe=lists, **of_rows)
-        return kinds.SearchParameters(**of_rows) if of_rows else None
+            return kinds.SearchParametersIVF(nprobe=lists, **selector)
+        return kinds.SearchParameters(**selector) if selector else None
 
     def _inside(self, within: Box) -> npt.NDArray[np.bool_]:
         assert self._positions_m is not None, "a store without positions cannot search within a box"
@@ -103,13 +103,11 @@ class FaissStore:
 
     def score(self, query: Floats, rows: Rows) -> Floats:
         """Implement VectorStore."""
-        scores: Floats = self.vectors(rows) @ query
-        return scores
+        return self.vectors(rows) @ query
 
     def vectors(self, rows: npt.NDArray[np.integer[Any]]) -> Floats:
         """Implement VectorStore."""
-        vectors: Floats = self._index.reconstruct_batch(np.asarray(rows, np.int64))
-        return vectors
+        return self._index.reconstruct_batch(np.asarray(rows, np.int64))
 
     def save(self, path: Path) -> None:
         """Write the file that `load` reads."""
@@ -139,18 +137,20 @@ def _build_lists(vectors: Floats, flat: Any) -> Any:
     kinds: Any = faiss  # some of which have no types
     index = _train_lists(vectors, flat)
     lists = kinds.downcast_InvertedLists(index.invlists)
-    list_of = np.concatenate([index.quantizer.search(block, 1)[1][:, 0].astype(np.int16) for block in _blocks(vectors)])
-    for number, size in enumerate(np.bincount(list_of, minlength=IVF_LISTS).tolist()):
+    list_numbers = np.concatenate(
+        [index.quantizer.search(block, 1)[1][:, 0].astype(np.int16) for block in _blocks(vectors)]
+    )
+    for number, size in enumerate(np.bincount(list_numbers, minlength=IVF_LISTS).tolist()):
         lists.resize(number, size)
     filled, row = np.zeros(IVF_LISTS, np.int64), 0
     for block in _blocks(vectors):
-        block_lists = list_of[row : row + len(block)]
+        block_lists = list_numbers[row : row + len(block)]
         order = np.argsort(block_lists, kind="stable")
         ids, codes = row + order, flat.sa_encode(block)[order]
         ends = np.cumsum(np.bincount(block_lists, minlength=IVF_LISTS))
         for number, (first, last) in enumerate(pairwise([0, *ends.tolist()])):
-            of_list = kinds.swig_ptr(ids[first:last]), kinds.swig_ptr(codes[first:last])
-            lists.update_entries(number, int(filled[number]), last - first, *of_list)
+            entries = kinds.swig_ptr(ids[first:last]), kinds.swig_ptr(codes[first:last])
+            lists.update_entries(number, int(filled[number]), last - first, *entries)
         filled, row = filled + np.diff(ends, prepend=0), row + len(block)
     index.ntotal = len(vectors)
     index.make_direct_map()  # maps rows to vectors
@@ -158,11 +158,10 @@ def _build_lists(vectors: Floats, flat: Any) -> Any:
 
 
 def _train_lists(vectors: Floats, flat: Any) -> Any:
-    """Train empty lists for vectors [N, D], with the quantizer of a trained index."""
     dim = vectors.shape[1]
     # by_residual is off, so a vector has the same bits in any list and in a store without lists.
-    given = dim, IVF_LISTS, QUANTIZERS[8], faiss.METRIC_INNER_PRODUCT, False
-    index: Any = faiss.IndexIVFScalarQuantizer(faiss.IndexFlatIP(dim), *given)
+    arguments = dim, IVF_LISTS, QUANTIZERS[8], faiss.METRIC_INNER_PRODUCT, False
+    index: Any = faiss.IndexIVFScalarQuantizer(faiss.IndexFlatIP(dim), *arguments)
     index.cp.max_points_per_centroid = TRAINING_VECTORS_PER_LIST
     sample = np.random.default_rng(0).choice(
         len(vectors), min(len(vectors), TRAINING_VECTORS_PER_LIST * IVF_LISTS), replace=False

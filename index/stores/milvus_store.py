@@ -125,8 +125,7 @@ class MilvusStore:
 
     def score(self, query: Floats, rows: Rows) -> Floats:
         """Implement VectorStore."""
-        scores: Floats = self.vectors(rows) @ query
-        return scores
+        return self.vectors(rows) @ query
 
     def vectors(self, rows: npt.NDArray[np.integer[Any]]) -> Floats:
         """Implement VectorStore."""

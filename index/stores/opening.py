@@ -13,10 +13,7 @@ VECTORS_FILE: Final = "vectors.faiss"
 
 
 def open_store(directory: Path, manifest: Manifest, center_m: Floats) -> VectorStore:
-    """Open the store that a version's manifest names, of cells with centres [N, 2], without connecting to Milvus.
-
-    Raise IndexBroken, or StoreUnavailable if pymilvus is missing or HEREABOUTS_MILVUS_URI is not set.
-    """
+    """Open the store that a version's manifest names, without connecting to Milvus."""
     if manifest.collection is not None:
         return MilvusStore(manifest.collection, manifest.dim, manifest.cells)
     return FaissStore.load(directory / VECTORS_FILE, center_m[:, :2])

@@ -17,10 +17,7 @@ _QUALITY = re.compile(r"0(\.\d{0,3})?|1(\.0{0,3})?")
 
 
 def choose_media_type(accept: str, offers: Sequence[str]) -> str | None:
-    """Return the offer that an Accept header prefers, the first of equals; None if it accepts none.
-
-    An empty header accepts anything, and malformed ranges are ignored.
-    """
+    """Return the offer that an Accept header prefers, the first of equals; None if it accepts none."""
     if not accept.strip():
         return offers[0]
     ranges = [parsed for part in accept.split(",") if (parsed := _parse_range(part))]

@@ -14,7 +14,7 @@ from app.http.dependencies import AllIndexes, Jobs, SettingsNow
 from app.http.errors import Code
 from app.http.openapi import problems
 from app.http.queue import QUERY_ERRORS
-from app.http.schemas.evaluate_requests import EvaluateRequest
+from app.http.schemas.requests import EvaluateRequest
 from app.jobs.evaluation import build_evaluation
 from app.jobs.job import FINISHED, EvaluationJob, JobState, Status
 

@@ -8,7 +8,6 @@ from starlette.responses import PlainTextResponse, Response
 from app.http.dependencies import AllIndexes, SettingsNow
 from app.http.errors import Problem
 from app.http.keys import OPEN
-from app.http.metrics import Metrics
 from app.http.openapi import problems
 from app.http.queue import UNAVAILABLE
 from app.http.schemas.responses import Health, IndexInfo, InfoResponse, Limits
@@ -33,8 +32,7 @@ async def readyz(indexes: AllIndexes) -> Health:
 @router.get("/metrics", response_class=PlainTextResponse, openapi_extra=OPEN)
 async def metrics(request: Request) -> Response:
     """Return the metrics for Prometheus."""
-    app_metrics: Metrics = request.app.state.metrics
-    return app_metrics.response()
+    return request.app.state.metrics.response()
 
 
 @router.get("/info", openapi_extra=OPEN)

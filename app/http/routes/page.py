@@ -21,15 +21,9 @@ MEDIA_TYPES: Final = {  # not Python's `mimetypes`, which depend on files of the
     ".js": "text/javascript",
     ".css": "text/css",
     ".txt": "text/plain",
-    ".json": "application/json",
-    ".map": "application/json",
-    ".webmanifest": "application/manifest+json",
     ".svg": "image/svg+xml",
     ".png": "image/png",
-    ".jpg": "image/jpeg",
-    ".webp": "image/webp",
     ".ico": "image/x-icon",
-    ".woff2": "font/woff2",
 }
 OTHER: Final = "application/octet-stream"
 CONTENT_POLICY: Final = (

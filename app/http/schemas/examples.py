@@ -17,14 +17,8 @@ _PROVENANCE: JsonValue = {
     "map": "helsinki",
     "attribution": "© OpenStreetMap contributors",
 }
-_COVARIANCE: list[JsonValue] = [
-    *(1444.0, 0.0, 0.0, 0.0, 0.0, 0.0),
-    *(0.0, 1444.0, 0.0, 0.0, 0.0, 0.0),
-    *(0.0, 0.0, 1e4, 0.0, 0.0, 0.0),
-    *(0.0, 0.0, 0.0, 3.29, 0.0, 0.0),
-    *(0.0, 0.0, 0.0, 0.0, 3.29, 0.0),
-    *(0.0, 0.0, 0.0, 0.0, 0.0, 0.099),
-]
+_VARIANCES = (1444.0, 1444.0, 1e4, 3.29, 3.29, 0.099)
+_COVARIANCE: list[JsonValue] = [v if row == column else 0.0 for row in range(6) for column, v in enumerate(_VARIANCES)]
 ANSWERED: JsonValue = {
     "request_id": "5f0c1f3f8d4e4a0f9d5c3f7a1b2c3d4e",
     "status": "ambiguous",

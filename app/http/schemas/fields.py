@@ -60,9 +60,9 @@ def one_of(first: str, first_type: str, second: str, second_type: str) -> dict[s
     return {
         "oneOf": [
             {
-                "required": [given],
-                "properties": {name: {"type": kind if name == given else "null"} for name, kind in types.items()},
+                "required": [chosen],
+                "properties": {name: {"type": kind if name == chosen else "null"} for name, kind in types.items()},
             }
-            for given in types
+            for chosen in types
         ]
     }

@@ -15,7 +15,14 @@ from app.http.schemas.fields import (
     field_error,
     one_of,
 )
-from app.limits import DEFAULT_DEADLINE_MS, MAX_DEADLINE_MS, MAX_DESCRIPTION_CHARACTERS, MAX_HINTS, MAX_TOP_K
+from app.limits import (
+    DEFAULT_DEADLINE_MS,
+    MAX_DEADLINE_MS,
+    MAX_DESCRIPTION_CHARACTERS,
+    MAX_EVALUATE_QUERIES,
+    MAX_HINTS,
+    MAX_TOP_K,
+)
 from index.answering.query import (
     DEFAULT_REFINE,
     DEFAULT_TOP_K,
@@ -34,8 +41,17 @@ from models.language.sentences import split_hints
 
 EXAMPLE: JsonValue = {"description": "I am north of a gray building. A black pole is to my west.", "top_k": 3}
 DESCRIPTION_OR_HINTS = one_of("description", "string", "hints", "array")
+QUERIES_OR_DATA = one_of("queries", "array", "data", "string")
 DESCRIBE_EXAMPLE: JsonValue = {"position": [105.0, -35.0]}
+EVALUATE_EXAMPLE: JsonValue = {
+    "queries": [
+        {"description": "I am north of a gray building. A black pole is to my west.", "position": [105.0, -35.0]},
+        {"hints": ["I stand on a gray road.", "There is a park to my west."], "position": [340.0, 200.0]},
+    ],
+    "crs": "map",
+}
 MAX_ID_CHARACTERS = 1000  # far longer than any name or any question with four colours
+MAX_RADII = 8  # of a growing gallery
 
 
 class Body(BaseModel):
@@ -80,10 +96,6 @@ class PriorPosition(Body):
 
     position: Point
     sigma_m: Length
-
-    def to_prior(self) -> Prior:
-        """Return the prior as the localizer takes it."""
-        return Prior(self.position, self.sigma_m)
 
 
 class GivenAnswer(Body):
@@ -197,7 +209,7 @@ class LocalizeRequest(DescriptionFields):
             description=self.text(),
             top_k=self.top_k,
             within=self.within.to_filter() if self.within else None,
-            prior=self.prior.to_prior() if self.prior else None,
+            prior=Prior(self.prior.position, self.prior.sigma_m) if self.prior else None,
             crs=self.crs,
             refine=self.refine,
             heat_map=self.heat_map,
@@ -235,3 +247,41 @@ class DescribeRequest(Body):
     def points(self) -> list[tuple[str, Point]]:
         """Return the (x, y) or (lon, lat) of the request with the name of its field."""
         return [("position", self.position)]
+
+
+class EvaluateQuery(DescriptionFields):
+    """A description and its true position: [x, y] in metres, or [lon, lat] with crs wgs84."""
+
+    position: Point
+
+
+class EvaluateRequest(Body):
+    """Queries with known positions, or the name of a data set of the service."""
+
+    model_config = ConfigDict(json_schema_extra={"examples": [EVALUATE_EXAMPLE], **QUERIES_OR_DATA})
+
+    queries: Annotated[list[EvaluateQuery], Field(min_length=1, max_length=MAX_EVALUATE_QUERIES)] | None = Field(
+        None, description="queries to the served index"
+    )
+    crs: Crs = Field("map", description="the reference system of the positions of queries")
+    data: Annotated[str, Strict(), StringConstraints(min_length=1, max_length=255)] | None = Field(
+        None, description="instead of queries: the name of a data set that GET /info lists"
+    )
+    split: Annotated[str, Strict(), StringConstraints(pattern=r"^[A-Za-z0-9_,-]{1,255}$")] | None = Field(
+        None, description="part of the data set: train, val, test, or scenes separated by commas; by default all"
+    )
+    grow: Annotated[list[Length], Field(min_length=1, max_length=MAX_RADII)] | None = Field(
+        None, description="radii in metres of a growing gallery, for example [200, 300, 400, 500]"
+    )
+    refine: Refine = REFINE
+    index: IndexName = DEFAULT_ALIAS
+
+    @model_validator(mode="after")
+    def _is_one_source(self) -> Self:
+        if (self.queries is None) == (self.data is None):
+            raise field_error("give either queries or data", "queries")
+        if self.queries is not None and self.split is not None:
+            raise field_error("works only with data, not with queries; leave it out", "split")
+        if self.data is not None and "crs" in self.model_fields_set:
+            raise field_error("works only with queries, not with data; leave it out", "crs")
+        return self

@@ -18,7 +18,7 @@ from index.answering.vector_localizer import VectorLocalizer
 from index.build.manifest import fingerprint
 from index.evaluation.evaluation import evaluate
 from index.evaluation.localizers import vectors_of_map
-from index.evaluation.reproduction.figure_3 import draw_figure_3
+from index.evaluation.reproduction.figures import draw_figure_3
 from models.citymap.gallery import MapData
 from models.citymap.queries import Queries
 from models.files import replace_file, sha256
@@ -84,11 +84,9 @@ class ReproductionJob:
     @property
     def points(self) -> "ReproductionJob | None":
         """Return the training of its point encoder, if it needs one; all seeds share it, as in the papers."""
-        return (
-            ReproductionJob.build(TrainingRun(POINTS), POINTS_SEED, self.data, self.out, self.scale)
-            if self.run.needs_points
-            else None
-        )
+        if not self.run.needs_points:
+            return None
+        return ReproductionJob.build(TrainingRun(POINTS), POINTS_SEED, self.data, self.out, self.scale)
 
     def settings(self) -> tuple[Any, Any]:
         """Return the settings, with the path of the point encoder."""
@@ -102,8 +100,8 @@ class ReproductionJob:
 
 def run_settings(run: TrainingRun, seed: int, scale: TrainingScale, also: tuple[str, ...] = ()) -> tuple[Any, Any]:
     """Return the settings of a run, as `load_settings`."""
-    of_method = scale.points if run.method == POINTS else scale.fine if run.method in FINE_METHODS else scale.retriever
-    return load_settings(run.method, [*of_method, *run.settings, f"training.seed={seed}", *also])
+    part = "points" if run.method == POINTS else "fine" if run.method in FINE_METHODS else "retriever"
+    return load_settings(run.method, [*getattr(scale, part), *run.settings, f"training.seed={seed}", *also])
 
 
 def _encoder_files(text_encoder: str) -> list[str]:
@@ -172,8 +170,7 @@ def _report_settings(model: Any, config: Any) -> dict[str, Any]:
 
 
 def _training_record(weights: Path) -> dict[str, Any]:
-    result: dict[str, Any] = json.loads((weights / "config.json").read_text())["training"]
-    return result
+    return json.loads((weights / "config.json").read_text())["training"]
 
 
 def _costs(job: ReproductionJob) -> dict[str, float]:
@@ -195,7 +192,6 @@ def _criterion(run: TrainingRun) -> str:
 
 
 def _measure_retriever(job: ReproductionJob, weights: Path) -> dict[str, Any]:
-    """Measure retrieval on test and validation scenes, MNCL's rankings, and growth where the paper has it."""
     retriever = load_retriever(weights)
     [(data, queries)] = open_queries(job.data, TEST)
     localizer = _localizer(data, retriever)
@@ -220,17 +216,17 @@ def _measure_retriever(job: ReproductionJob, weights: Path) -> dict[str, Any]:
 
 def _rankings(retriever: Retriever, data: Path) -> dict[str, dict[str, float]]:
     """Measure retrieval recall on the validation scenes for each way to rank with the same model."""
-    [(given, queries)] = open_queries(data, VALIDATION)
+    [(map_data, queries)] = open_queries(data, VALIDATION)
     fitted = retriever.config
     result = {}
     for name, depth in (
         (GLOBAL_ONLY, 0),
         (RERANKED, RERANKED_CELLS),
-        (ALL_LEVELS, len(given.cells)),
-        (Z_SCORES, len(given.cells)),
+        (ALL_LEVELS, len(map_data.cells)),
+        (Z_SCORES, len(map_data.cells)),
     ):
         retriever.config = fitted.model_copy(update={"level_weights": ()}) if name == Z_SCORES else fitted
-        result[name] = evaluate(given, queries, _localizer(given, retriever, depth))["retrieval"]
+        result[name] = evaluate(map_data, queries, _localizer(map_data, retriever, depth))["retrieval"]
     return result
 
 

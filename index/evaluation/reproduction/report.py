@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from index.evaluation.report import Table, as_markdown
-from index.evaluation.reproduction.plots import draw_figure_4, draw_figure_5
+from index.evaluation.reproduction.figures import draw_figure_4, draw_figure_5
 from models.training.experiments import VARIANTS, Experiment, TableRow, apply_variant
 from models.training.metrics import LOCALIZATION_KS, RETRIEVAL_KS
 from models.training.paper_tables import EXPERIMENTS, GROWTH, MNCL
@@ -138,9 +138,9 @@ def _recalls(row: TableRow, variant: str, results: Results) -> tuple[Numbers, Nu
         splits = "retrieval", "validation_retrieval"
         test, validation = ([list(result[split].values()) for result in by_seed] for split in splits)
     else:
-        of_fine = [result["localization"][apply_variant(row.fine, variant).name] for result in by_seed]
+        localizations = [result["localization"][apply_variant(row.fine, variant).name] for result in by_seed]
         test, validation = (
-            [[list(by.values()) for by in by_split[split].values()] for by_split in of_fine]
+            [[list(by.values()) for by in by_split[split].values()] for by_split in localizations]
             for split in ("test", "val")
         )
     return np.array(test), np.array(validation)

@@ -33,12 +33,12 @@ def scale_in_epochs(scale: TrainingScale, data: Path, epochs: int) -> TrainingSc
     positions = len(open_source(data, "train").queries())
     parts = {}
     for part, method in (("retriever", "mncl"), ("fine", "regressor")):
-        given = getattr(scale, part)
-        _, training = load_settings(method, given)
+        settings = getattr(scale, part)
+        _, training = load_settings(method, settings)
         an_epoch = max(1, positions // training.batch_size)
         lasts = {"schedule": "step", "halve_every": EPOCHS_PER_HALVING * an_epoch}
         lasts |= {"steps": epochs * an_epoch, "validate_every": an_epoch}
-        parts[part] = (*given, *(f"training.{name}={value}" for name, value in lasts.items()))
+        parts[part] = (*settings, *(f"training.{name}={value}" for name, value in lasts.items()))
     return replace(scale, **parts)
 
 
@@ -99,7 +99,6 @@ def _train(stage: str, jobs: Sequence[ReproductionJob], workers: int, progress: 
 def _localize(
     pairs: Sequence[tuple[ReproductionJob, ReproductionJob]], first_seed: int, workers: int, progress: Progress
 ) -> None:
-    """Measure localization where it is missing; figure 3 uses the first seed."""
     drawn = (first_seed, MNCL, HEAD)
     missing = [
         (*pair, (pair[0].seed, pair[0].run, pair[1].run) == drawn) for pair in pairs if read_localization(*pair) is None

@@ -73,15 +73,15 @@ def test_a_full_batch_does_not_crowd_the_queue(api, fake, until):
 
 
 def test_items_of_an_index_that_answers_do_not_wait_for_one_that_cannot(monkeypatch, until, problem):
-    def open_workers(_settings, alias, _version):
-        if alias == "default":
+    def open_workers(spec, _count):
+        if spec.index_dir.name == "v1":
             raise IndexBroken("cut short")
         return [FakeLocalizer()]
 
     async def check_version(_index_dir, _version):
         pass  # there are no files, which it would say soon or late
 
-    monkeypatch.setattr(main, "_open_workers", open_workers)
+    monkeypatch.setattr(main, "open_workers", open_workers)
     monkeypatch.setattr(main, "check_version", check_version)
     monkeypatch.setattr(main, "_read_aliases", lambda _dir: {"default": "v1", "berlin": "v2"})
     here, there = {"description": TEXT}, {"description": TEXT, "index": "berlin"}

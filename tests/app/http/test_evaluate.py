@@ -7,7 +7,7 @@ import pytest
 from fake_localizer import TRUE_FRAME, FakeLocalizer
 
 from app import limits as limits_module
-from app.http.schemas.evaluate_requests import EvaluateRequest
+from app.http.schemas.requests import EvaluateRequest
 from app.jobs import runner
 from app.jobs.evaluation import build_evaluation, find_data, read_evaluation
 from app.settings import Settings

@@ -5,7 +5,7 @@ import pytest
 import torch
 
 from index.answering.ranking import Ranker
-from index.evaluation.localizers import ranker_on_some_cells
+from index.evaluation.localizers import restrict_ranker
 from models.errors import IndexBroken
 from models.paper.levels import Level, level_scores
 from models.paper.mncl import Mncl, MnclConfig
@@ -65,7 +65,7 @@ def test_some_cells_score_as_in_the_whole(weighted, cells, labels, expected) -> 
     ranker, rows = Ranker.from_cells(weighted, cells, labels), np.array([7, 3, 100])
     [text] = weighted.encode_texts(TEXTS[:1])
     assert ranker.score(text, rows) == pytest.approx(expected[0][rows], abs=1e-5)
-    scores, order = ranker_on_some_cells(ranker, rows).rank([text], 3)
+    scores, order = restrict_ranker(ranker, rows).rank([text], 3)
     assert sorted(scores[0]) == pytest.approx(sorted(expected[0][rows]), abs=1e-5)
     assert sorted(order[0]) == [0, 1, 2]
 

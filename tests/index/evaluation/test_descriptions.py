@@ -36,7 +36,7 @@ def test_where_nothing_can_be_said_nothing_is_found(localizer) -> None:
     figures = localize_descriptions(localizer, np.array([off_the_map, (60.0, 61.0), off_the_map]), lambda *_: None)
     assert figures.words.tolist()[::2] == [0, 0]
     assert np.isinf(figures.error_m).tolist() == [True, False, True]
-    assert not (figures.is_ok | figures.is_held)[::2].any()
+    assert not (figures.is_ok | figures.is_in_radius)[::2].any()
     assert figures.words[1] > 10
 
 
@@ -55,6 +55,6 @@ def test_what_is_found_in_another_scene_is_not_found_though_a_circle_holds_it() 
     )
     figures = localize_descriptions(localizer, np.array([position, position, position]), lambda *_: None)
     assert figures.error_m.tolist() == [0.0, np.inf, np.inf]
-    assert figures.is_held.tolist() == [True, True, False]
+    assert figures.is_in_radius.tolist() == [True, True, False]
     assert figures.is_ok.tolist() == [True, True, False]
     assert figures.words.tolist() == [3, 3, 3]

@@ -5,9 +5,16 @@ import pytest
 import torch
 
 from index.answering.ranking import Ranker
-from index.evaluation.candidates import CANDIDATE_COUNTS, SOURCES, candidate_recall
 from index.evaluation.localizers import posterior_of_map, vectors_of_map
-from index.evaluation.robustness import _damage_map, nearest_hints, robustness, robustness_tables
+from index.evaluation.robustness import (
+    CANDIDATE_COUNTS,
+    SOURCES,
+    _damage_map,
+    candidate_recall,
+    nearest_hints,
+    robustness,
+    robustness_tables,
+)
 from index.evaluation.trials import Trial, all_trials
 from models.citymap.types import Hint
 from models.errors import DataError
@@ -88,6 +95,6 @@ def test_points_of_a_damaged_map_are_those_of_the_parts_that_are_left(data_and_q
     before, after = data.gallery.cells, damage.data.gallery.cells
     chosen = np.array([3, 0])
     rows = np.concatenate([np.arange(before.parts.starts[n], before.parts.starts[n + 1]) for n in chosen])
-    left = damage.is_kept[rows]
+    left = damage.is_remaining[rows]
     assert 0 < left.sum() < len(left)
     assert np.array_equal(after.sample(chosen), before.sample(chosen)[left])

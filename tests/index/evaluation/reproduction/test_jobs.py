@@ -4,7 +4,7 @@ import pytest
 import torch
 
 from index.evaluation.reproduction import jobs as module
-from index.evaluation.reproduction.figure_3 import draw_figure_3
+from index.evaluation.reproduction.figures import draw_figure_3
 from index.evaluation.reproduction.jobs import ALL_LEVELS, GLOBAL_ONLY, RERANKED, Z_SCORES, ReproductionJob
 from models.paper.fine.regressor import Regressor, RegressorConfig
 from models.paper.mncl import Mncl, MnclConfig

@@ -1,7 +1,9 @@
-"""Figure 3 of MNCL (AAAI 2025): queries, their retrieved cells, and the position errors."""
+"""Figures 3, 4 and 5 of MNCL (AAAI 2025), as `reproduce` draws them."""
 
 import textwrap
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,12 +15,14 @@ from index.answering.vector_localizer import VectorLocalizer
 from index.evaluation.report import DPI
 from models.citymap.gallery import MapData
 from models.citymap.queries import Queries
+from models.training.metrics import RETRIEVAL_KS
 
 QUERIES_SHOWN, CELLS_SHOWN = 4, 3  # queries, and retrieved cells of each
 SEED = 0  # queries are chosen at random
 UNKNOWN_COLOUR = 0.7
 RIGHT_COLOUR, WRONG_COLOUR = "#2a9d4b", "#d1495b"
 MIN_LABELLED_M = 3.0  # smaller instances get no name
+Numbers = np.ndarray[Any, np.dtype[np.float64]]
 
 
 def draw_figure_3(data: MapData, queries: Queries, localizer: VectorLocalizer, path: Path) -> None:
@@ -28,10 +32,10 @@ def draw_figure_3(data: MapData, queries: Queries, localizer: VectorLocalizer, p
     The title has the error, or "other scene".
     """
     rows = np.random.default_rng(SEED).choice(len(queries), min(QUERIES_SHOWN, len(queries)), replace=False)
-    asked_queries = [Query(description=" ".join(queries.sentences[q]), top_k=CELLS_SHOWN) for q in rows]
+    shown_queries = [Query(description=" ".join(queries.sentences[q]), top_k=CELLS_SHOWN) for q in rows]
     figure = Figure(figsize=(2.6 * (CELLS_SHOWN + 1), 3.1 * len(rows)), layout="constrained", dpi=DPI)
     parts = figure.subfigures(len(rows), 1, squeeze=False)[:, 0]
-    for q, part, query, result in zip(rows, parts, asked_queries, localizer.find(asked_queries), strict=True):
+    for q, part, query, result in zip(rows, parts, shown_queries, localizer.find(shown_queries), strict=True):
         part.suptitle(textwrap.fill(query.description, 130), fontsize=8, x=0.01, ha="left", style="italic")
         axes, truth = part.subplots(1, CELLS_SHOWN + 1), int(queries.truth[q])
         _draw_cell(axes[0], data, truth)
@@ -77,3 +81,28 @@ def _mark_truth(axes: Axes, position_m: "np.ndarray[tuple[int], np.dtype[np.floa
     (west, east), (south, north) = axes.get_xlim(), axes.get_ylim()
     if west <= position_m[0] <= east and south <= position_m[1] <= north:
         axes.plot(*position_m, marker="x", ms=9, mew=2, color="black")
+
+
+def draw_figure_4(path: Path, titles: Sequence[str], curves: Sequence[Sequence[Numbers]]) -> None:
+    """Write a PNG with one plot per title; each point is [seeds, metrics] recall, of which the first seed is drawn."""
+    figure = Figure(figsize=(4.5 * len(titles), 3.8), layout="constrained", dpi=DPI)
+    for axes, title, points in zip(figure.subplots(1, len(titles), squeeze=False)[0], titles, curves, strict=True):
+        for n, k in enumerate(RETRIEVAL_KS):
+            axes.plot(range(len(points)), [point[0, n] for point in points], marker="o", label=f"R@{k}")
+        axes.set(ylabel="retrieval recall", ylim=(0, 1), xticks=range(len(points)))
+        axes.set_xlabel(title.removeprefix("Figure 4: "), fontsize=8)
+        axes.grid(alpha=0.3)
+        axes.legend(frameon=False)
+    FigureCanvasAgg(figure).print_png(path)
+
+
+def draw_figure_5(path: Path, cells: Sequence[int], curves: Sequence[tuple[str, Numbers]]) -> None:
+    """Write a PNG of named curves [seeds, radii] of recall@1 over the number of cells."""
+    figure = Figure(figsize=(5.4, 3.6), layout="constrained", dpi=DPI)
+    axes = figure.subplots()
+    for name, recalls in curves:
+        axes.errorbar(cells, recalls.mean(axis=0), recalls.std(axis=0), marker="o", label=name)
+    axes.set(xlabel="cells in the gallery", ylabel="recall@1, the same queries", ylim=(0, 1))
+    axes.grid(alpha=0.3)
+    axes.legend(frameon=False, fontsize=8)
+    FigureCanvasAgg(figure).print_png(path)
