@@ -12,7 +12,7 @@ from models.posterior.neighbours.neighbours import STEP_M
 from models.posterior.node_batch import OFFSET_STEPS, RANKS, NodeBatch, colour_words
 
 HABITS: Final = 3
-MIN_FIT: Final = 5e-3  # objects that fit a hint less are left to the background, which saves time
+MIN_FIT: Final = 5e-3  # objects that fit a hint less count as background, which saves time
 MIN_ABSENT_PROBABILITY: Final = 0.05  # below, the absence of a hint is ignored
 
 

@@ -67,7 +67,7 @@ def expected_entropy_of_names(mass: Floats, true: csr_array, names: int) -> floa
     Args:
         mass: [C] probability of each position, adding up to 1.
         true: [C, K] probability that each name is true; rows may add up to less than 1.
-        names: number of names of the map; those without a column are said in error alone.
+        names: number of names of the map; those without a column are replied in error alone.
     """
     position, name, p = find(true)
     wrong, before = float(name_with_errors(np.zeros(1), names)[0]), entropy(mass)

@@ -22,7 +22,7 @@ from models.citymap.types import Floats
 
 TILE_M = 5.0  # nodes that share a cube; a cube per node takes ten times as long, with the same result
 PIXEL_M = 0.75  # points in adjoining pixels touch
-BLOCK_M = 120.0  # bounds the size of an image of pixels
+IMAGE_BLOCK_M = 120.0  # bounds the size of an image of pixels
 ADJOINING = np.zeros((3, 3, 3), dtype=np.int64)  # pixels of the same window, not of the next
 ADJOINING[1] = 1
 Piece = tuple[Ints, Floats, Ints]  # node, offset, part
@@ -89,7 +89,7 @@ class PieceFinder:
         nodes = np.split(order, first[1:])
         corner = self._pixel(tiles.center_m[numbers] - self._cells.size_m / 2)
         pieces: list[Piece] = [(np.zeros(0, np.int64), np.zeros((0, 2)), np.zeros(0, np.int64))]
-        blocks = np.unique(np.floor(tiles.center_m[numbers] / BLOCK_M), axis=0, return_inverse=True)[1]
+        blocks = np.unique(np.floor(tiles.center_m[numbers] / IMAGE_BLOCK_M), axis=0, return_inverse=True)[1]
         for block in range(blocks.max(initial=-1) + 1):
             of_block = np.flatnonzero(blocks == block)
             for n, pixels, piece in self._windows(corner[of_block]):

@@ -19,7 +19,7 @@ TYPES: Final = tuple(SCALES)
 FLOORS: Final = {"exact": 0.10, "part": 0.25, "kind": 0.20, "street": 0.06, "corner": 0.08}
 FLOOR_NAMES: Final = tuple(FLOORS)
 HEADINGS: Final = 16
-INITIAL_ACROSS_M: Final = 24.0  # width of a street
+INITIAL_ACROSS_M: Final = 24.0  # from an object to the other side of its street; fitted afterwards
 KERNEL_POWER: Final = 1.5
 MAX_AHEAD_DEG: Final = 60.0  # from ahead or behind; beyond, an object is at the side
 

@@ -26,7 +26,7 @@ from models.strings import Column, merge_columns
 
 FILE: Final = "landmarks.safetensors"
 MIN_PROBABILITY: Final = 0.01  # smaller entries are not stored
-CELLS_PER_BLOCK: Final = 16_384  # bounds the memory of a build
+CELLS_PER_LANDMARK_BLOCK: Final = 16_384  # bounds the memory of a build
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -72,7 +72,7 @@ _ENTRIES: Final = ("starts", "name", "chance")
 
 
 def _entries_of(rows: csr_array) -> dict[str, Column]:
-    """Return the number of entries of each row of a table [N, K], and the entries worth storing."""
+    """Return the number of entries of each row of a table [N, K], and the entries to store."""
     cell = np.repeat(np.arange(rows.shape[0]), np.diff(rows.indptr))
     stored = rows.data >= MIN_PROBABILITY
     return {
@@ -107,7 +107,7 @@ class Crossings:
 
         Args:
             cells: rows of the gallery.
-            on: streets that people may have said to be on. Cells near none of them, or all cells without any, allow
+            on: streets that people may be on, by their reply. Cells near none of them, or all cells without any, allow
                 every street.
         """
         row, pair, chance = find(self.pairs.rows(cells))
@@ -152,8 +152,8 @@ class Landmarks:
         names = NameIndex.build([words[n].names for n in known.tolist()], are_streets=False)
         addresses = Addresses.build(words)
         spools = [Spool() for _ in range(4)]
-        for first in range(0, len(centers_m) or 1, CELLS_PER_BLOCK):
-            probabilities = NameProbabilities(gazetteer, centers_m[first : first + CELLS_PER_BLOCK])
+        for first in range(0, len(centers_m) or 1, CELLS_PER_LANDMARK_BLOCK):
+            probabilities = NameProbabilities(gazetteer, centers_m[first : first + CELLS_PER_LANDMARK_BLOCK])
             on_street = probabilities.on_street(roads, streets)
             pairs, on, other = probabilities.crossings(roads, streets, on_street)
             blocks = on_street, probabilities.on_sign(known, names), probabilities.at_address(addresses), pairs

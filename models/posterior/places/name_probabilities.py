@@ -20,7 +20,7 @@ LEGIBLE_M, LEGIBLE_SOFT_M = 30.0, 8.0  # up to which a sign can be read
 NAME_DECAY_M: Final = 15.0  # over which a name is given less often
 CORNER_SOFT_M: Final = 15.0  # by which the nearest of corners must be nearer
 MAX_CORNERS: Final = 4  # of a street that may be the nearest
-BLOCK_M: Final = 80.0  # cells in a square of this size are searched together
+SEARCH_BLOCK_M: Final = 80.0  # cells in a square of this size are searched together
 Entries = tuple[Ints, Ints, Floats]  # rows, columns and values of a sparse table
 
 
@@ -29,7 +29,7 @@ class NameProbabilities:
 
     def __init__(self, gazetteer: Gazetteer, centers_m: Floats) -> None:
         self._gazetteer, self._centers_m = gazetteer, centers_m
-        block = np.floor(centers_m / BLOCK_M).astype(np.int64)
+        block = np.floor(centers_m / SEARCH_BLOCK_M).astype(np.int64)
         group = np.unique(block, axis=0, return_inverse=True)[1].ravel()
         self._order = np.argsort(group, kind="stable")
         self._around = PointGroups.from_groups(centers_m[self._order], group[self._order])

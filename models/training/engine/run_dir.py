@@ -164,7 +164,9 @@ class RunDir:
             return None
         try:
             with safe_open(path, framework="pt") as file:
-                return RunState({n: file.get_tensor(n) for n in list(file.keys())}, _facts(file.metadata()))
+                return RunState(
+                    {n: file.get_tensor(n) for n in list(file.keys())}, json.loads(file.metadata()["facts"])
+                )
         except (SafetensorError, ValueError, KeyError) as error:
             raise TrainingError(f"{path} cannot be read ({error}); start again in another directory") from error
 
@@ -177,10 +179,6 @@ class RunDir:
         replace_file(self.path / BEST_FILE, save(_plain(best_weights)))
         metadata = {"facts": json.dumps(state.facts)}
         replace_file(self.path / STATE_FILE, save(_plain(state.tensors), metadata))
-
-
-def _facts(metadata: dict[str, str]) -> dict[str, Any]:
-    return json.loads(metadata["facts"])
 
 
 def _plain(tensors: dict[str, Tensor]) -> dict[str, Tensor]:

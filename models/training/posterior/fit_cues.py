@@ -14,7 +14,7 @@ from models.language.mentions.cue_reader import ANGLES, FLAGS, FORMS, RELATIONS,
 from models.training.posterior.cue_texts import CueText, augment, collect_names
 
 EPOCHS: Final = 12
-BATCH_TEXTS: Final = 16
+TEXTS_PER_BATCH: Final = 16
 BATCHES_PER_SORT: Final = 16  # batches whose texts are sorted by length together
 LOW_RANK_LEARNING_RATE, HEAD_LEARNING_RATE = 1e-3, 2e-3
 WARM_UP_STEPS: Final = 40
@@ -43,7 +43,7 @@ def fit_cues(
         weight_decay=0.01,
     )
     reader.train()
-    batches, names = -(-len(texts) // BATCH_TEXTS), collect_names(texts)
+    batches, names = -(-len(texts) // TEXTS_PER_BATCH), collect_names(texts)
     losses: list[float] = []
     for epoch in range(epochs):
         for n, rows in enumerate(_batches(texts, rng)):
@@ -69,13 +69,13 @@ def _batches(texts: Sequence[CueText], rng: np.random.Generator) -> Iterator[Int
     order = rng.permutation(len(texts))
     length = np.array([len(text.text) for text in texts])
     groups = [
-        order[start : start + BATCHES_PER_SORT * BATCH_TEXTS]
-        for start in range(0, len(order), BATCHES_PER_SORT * BATCH_TEXTS)
+        order[start : start + BATCHES_PER_SORT * TEXTS_PER_BATCH]
+        for start in range(0, len(order), BATCHES_PER_SORT * TEXTS_PER_BATCH)
     ]
     order = np.concatenate([rows[np.argsort(length[rows], kind="stable")] for rows in groups])
-    starts = np.arange(0, len(order), BATCH_TEXTS)
+    starts = np.arange(0, len(order), TEXTS_PER_BATCH)
     for start in rng.permutation(starts):
-        yield order[start : start + BATCH_TEXTS]
+        yield order[start : start + TEXTS_PER_BATCH]
 
 
 def _loss(reader: CueReader, texts: Sequence[CueText]) -> Tensor:

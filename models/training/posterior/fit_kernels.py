@@ -19,7 +19,7 @@ from models.language.mentions.cue_reader import CueReader
 from models.language.mentions.lookup import Lookup
 from models.language.mentions.reader import find_mentions, is_meeting, listener_wind, mark_goal
 from models.language.text_encoder import TextEncoder
-from models.posterior.locate import PLACE_PEAK_RADIUS_M
+from models.posterior.locate import HEAVY_NODES, PLACE_PEAK_RADIUS_M
 from models.posterior.places.explanations import PlacedMentions
 from models.posterior.places.field import CoarseDistances, PlaceField
 from models.posterior.places.kernels import HEADINGS, PlaceKernels
@@ -30,13 +30,12 @@ HARD_CELLS, TRUE_CELL_RADIUS_M, RANDOM_CELLS = 250, 25.0, 60
 NODE_SPACING_M = 3.0
 BLUR_M = 4.0  # width of the normal distribution around the true position
 MAX_LOSS_NATS = 9.0  # caps the gradient of texts that cannot be explained
-BATCH_TEXTS = 48
+TEXTS_PER_BATCH = 48
 STEPS = 100
 LEARNING_RATE = 0.06
 PULL_WEIGHT = 0.005  # of the squared distance from the initial weights, in the loss
 TEMPER_SCALES = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5)  # candidate factors of `temper`
 RADIUS_MASS = 0.9  # probability that the calibrated radius contains
-HEAVY_NODES = 256  # nodes among which the best position is searched
 SAMPLED_CELLS = 4000  # for the mean of a kernel over the map
 
 
@@ -92,16 +91,16 @@ def fit_kernels(
         for group in optimizer.param_groups:
             group["lr"] = LEARNING_RATE * (1 - 0.9 * step / steps)
         optimizer.zero_grad()
-        for n in rng.permutation(len(examples))[:BATCH_TEXTS]:
+        for n in rng.permutation(len(examples))[:TEXTS_PER_BATCH]:
             loss = _loss(examples[n])
-            (loss / BATCH_TEXTS).backward()
+            (loss / TEXTS_PER_BATCH).backward()
             losses.append(loss.item())
         pull = sum(((p - q) ** 2).sum() for p, q in zip(kernels.parameters(), start, strict=True))
         (PULL_WEIGHT * torch.as_tensor(pull)).backward()
         optimizer.step()
         if progress:
-            progress(step + 1, steps, float(np.mean(losses[-5 * BATCH_TEXTS :])))
-    return float(np.mean(losses[-10 * BATCH_TEXTS :]))
+            progress(step + 1, steps, float(np.mean(losses[-5 * TEXTS_PER_BATCH :])))
+    return float(np.mean(losses[-10 * TEXTS_PER_BATCH :]))
 
 
 def read_examples(

@@ -20,7 +20,7 @@ from models.training.posterior.training_sites import TrainingSite
 TRUE_CELL_RADIUS_M = 25.0
 HARD_CELLS, RANDOM_CELLS = 40, 40
 BLUR_M = 1.5  # width of the normal distribution around the true position, about the spacing of the nodes
-BATCH_TEXTS = 16
+TEXTS_PER_BATCH = 16
 LEARNING_RATE = 0.05
 
 
@@ -53,17 +53,17 @@ def fit_likelihood(
         for group in optimizer.param_groups:
             group["lr"] = LEARNING_RATE * (1 - 0.9 * step / steps)
         optimizer.zero_grad()
-        for _ in range(BATCH_TEXTS):
+        for _ in range(TEXTS_PER_BATCH):
             n = int(rng.choice(len(texts), p=sizes / sizes.sum()))
             query = int(rng.integers(len(texts[n].bound_hints)))
             cells = _cells(texts[n], start[n], trees[n], query, rng)
             loss = negative_log_density(likelihood, texts[n], query, cells, start[n].mean_statements)
-            (loss / BATCH_TEXTS).backward()
+            (loss / TEXTS_PER_BATCH).backward()
             losses.append(loss.item())
         torch.nn.utils.clip_grad_norm_(likelihood.parameters(), 5.0)
         optimizer.step()
         if progress:
-            progress(step + 1, steps, float(np.mean(losses[-20 * BATCH_TEXTS :])))
+            progress(step + 1, steps, float(np.mean(losses[-20 * TEXTS_PER_BATCH :])))
 
 
 def negative_log_density(

@@ -23,7 +23,7 @@ from models.posterior.posterior import HintPosterior
 from models.sources.source import QUERY_SPACING_M, VALIDATION_SEED, Source
 
 TEXTS_PER_BATCH = 16
-SLIP_SHARE = 0.15  # of the texts contain a false fact, as texts by people do
+SLIP_SHARE = 0.15  # of the texts contain a false fact
 CLASS_SLIP_SHARE = 0.4  # of the false facts have a wrong class; the others a wrong direction and colour
 OMISSION_SHARE, MIN_FACTS = 0.3, 2  # share of the texts with fewer facts, and their minimum number
 DISTANT_SHARE, DISTANT_M = 0.2, (20.0, 60.0)  # share of the texts in free wording with a distant thing; its distance

@@ -106,7 +106,7 @@ def test_cells_do_not_depend_on_which_others_there_are(landmarks):
 
 @pytest.mark.parametrize("cells_per_block", [1, 4])
 def test_landmarks_are_the_same_of_however_many_cells_cells_per_block(cells_per_block, landmarks, monkeypatch):
-    monkeypatch.setattr(landmarks_module, "CELLS_PER_BLOCK", cells_per_block)
+    monkeypatch.setattr(landmarks_module, "CELLS_PER_LANDMARK_BLOCK", cells_per_block)
     subset = Landmarks.build(made_gazetteer(), CENTERS, ("shop", "amenity"))
     for name in ("street_table", "name_table", "address_table"):
         assert (dense(getattr(subset, name)) == dense(getattr(landmarks, name))).all()

@@ -66,14 +66,14 @@ def _small(monkeypatch):
         "HARD_CELLS": 60,
         "RANDOM_CELLS": 20,
         "SAMPLED_CELLS": 300,
-        "BATCH_TEXTS": 1,
+        "TEXTS_PER_BATCH": 1,
         "PULL_WEIGHT": 0.0,
     }.items():
         monkeypatch.setattr(fit_kernels_module, name, value)
 
 
 def test_fitting_lowers_the_surprise(monkeypatch) -> None:
-    monkeypatch.setattr(fit_kernels_module, "BATCH_TEXTS", 5)
+    monkeypatch.setattr(fit_kernels_module, "TEXTS_PER_BATCH", 5)
     _, done = fitted(30, scale=1.5)  # far too wide
     assert [step for step, _, _ in done] == list(range(1, 31))
     first, last = done[0][2], done[-1][2]
