@@ -22,9 +22,8 @@ def template_hints(gallery: Gallery, objects: MapObjects, palette: Palette) -> t
     """Return every template hint about the map's visible classes, in each of their colours and without colour."""
     labels, number = objects.labels(gallery)
     shown, words = objects.parts > 0, [*palette.words, None]
-    shown_pairs = np.unique(
-        number[shown] * len(words) + palette.word_index(objects.rgb[shown]) % len(words)
-    )  # -1 is the last
+    colour = palette.word_index(objects.rgb[shown]) % len(words)  # -1 is the last
+    shown_pairs = np.unique(number[shown] * len(words) + colour)
     pairs = {(str(labels[row // len(words)]), words[row % len(words)]) for row in shown_pairs.tolist()}
     pairs |= {(label, None) for label, _ in pairs}
     ordered = sorted(pairs, key=lambda pair: (pair[0], pair[1] or ""))

@@ -132,10 +132,8 @@ class Localizer:
 
         A single vector replaces the store meanwhile, because a store must not connect to a server before the fork.
         """
-        store, self.ranker.store = (
-            self.ranker.store,
-            FaissStore.from_vectors(np.zeros((1, self.manifest.dim), np.float32)),
-        )
+        store = self.ranker.store
+        self.ranker.store = FaissStore.from_vectors(np.zeros((1, self.manifest.dim), np.float32))
         try:
             words = self._gazetteer.objects
             streets = np.flatnonzero(words.is_street & words.has_name)

@@ -98,10 +98,8 @@ def _draw_map(
 
 
 def _is_visible(outline: Outline, box: tuple[float, float, float, float]) -> bool:
-    low, high = (
-        np.min([p.min(axis=0) for p in outline.paths], axis=0),
-        np.max([p.max(axis=0) for p in outline.paths], axis=0),
-    )
+    low = np.min([path.min(axis=0) for path in outline.paths], axis=0)
+    high = np.max([path.max(axis=0) for path in outline.paths], axis=0)
     return bool(low[0] <= box[2] and low[1] <= box[3] and high[0] >= box[0] and high[1] >= box[1])
 
 

@@ -114,9 +114,7 @@ class PlaceReader:
     @torch.inference_mode()
     def heading(self, place_evidence: PlaceEvidence | None, located: PositionDistribution) -> Heading | None:
         """Return the heading from the likeliest nodes; None if the text does not tell."""
-        if place_evidence is None or not any(
-            mention.cue.angle is not None for mention in place_evidence.placed.mentions
-        ):
+        if place_evidence is None or all(mention.cue.angle is None for mention in place_evidence.placed.mentions):
             return None
         near = np.hypot(*(located.points_m - located.positions[0]).T) <= located.radii_m(0.5)[0] + 3.0
         rows = np.flatnonzero(near)
@@ -130,11 +128,9 @@ class PlaceReader:
         mean = complex((share * np.exp(1j * angle)).sum())
         length = min(max(abs(mean), 1e-9), 1.0)
         spread = float(np.degrees(np.sqrt(-2 * np.log(length))))
-        return (
-            Heading(round(float(np.degrees(np.angle(mean))) % 360, 1), round(spread, 1))
-            if spread <= MAX_HEADING_SPREAD_DEG
-            else None
-        )
+        if spread > MAX_HEADING_SPREAD_DEG:
+            return None
+        return Heading(round(float(np.degrees(np.angle(mean))) % 360, 1), round(spread, 1))
 
 
 def possibly_near_hints(hints: Sequence[ParsedHint], mentions: Sequence[Mention]) -> list[ParsedHint]:
@@ -157,7 +153,7 @@ def near_hints(
         if over and all(_is_possibly_near(m) for m in over) and trust[n] >= MIN_CLASS_TRUST:
             places = [m for m in places if not any(m is other for other in over)]
             near_rows.append(n)
-        elif (not over and _is_informative(hint, trust[n])) or (hint.absent >= MIN_CLASS_TRUST and not over):
+        elif not over and (_is_informative(hint, trust[n]) or hint.absent >= MIN_CLASS_TRUST):
             near_rows.append(n)
     return near_rows, places
 

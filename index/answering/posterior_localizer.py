@@ -116,10 +116,8 @@ class PosteriorLocalizer:
         warnings += (*unknown, *contradictions(mentions))
         known_facts = KnownFacts.from_text(bound_hints, mentions, list(self.labels), self._gazetteer)
         if not hints and place_evidence is None and reply_evidence is None:
-            refusal, question = (
-                NO_MATCH if mentions else NO_HINTS,
-                self._question_for_refused(query, language, known_facts),
-            )
+            question = self._question_for_refused(query, language, known_facts)
+            refusal = NO_MATCH if mentions else NO_HINTS
             return LocalizerResult(None, refusal, timings_ms=timings, warnings=warnings, question=question)
         start = time.perf_counter()
         located = self._locate(query, hints, bound_hints, place_evidence, reply_evidence)

@@ -49,11 +49,10 @@ class VectorLocalizer:
         model = refiner or ranker.retriever
         self.model = ModelName(model.name, model.fingerprint)  # computed once, because it reads all weights
         self._centers, self._extent_m = gallery.cells.center_m[:, :2].astype(np.float64), gallery.cells.extent_m
-        self._features = (
-            refiner.with_point_features(CellFeatures.from_cells(gallery.cells, np.array(gallery.labels)))
-            if refiner
-            else None
-        )
+        self._features: CellFeatures | None = None
+        if refiner:
+            features = CellFeatures.from_cells(gallery.cells, np.array(gallery.labels))
+            self._features = refiner.with_point_features(features)
 
     @property
     def method(self) -> Method:
