@@ -51,31 +51,16 @@ M = TypeVar("M", bound=Model)
 
 @dataclass(frozen=True, slots=True)
 class Checkpoints(Generic[M]):
-    """The on-disk format of one kind of model.
+    """The on-disk format of one kind of model."""
 
-    Attributes:
-        kind: key of the configuration in config.json.
-        methods: model classes by method name.
-        default: directory of the weights that ship with the package.
-        advice: what to do if the weights cannot be used; part of error messages.
-        is_int8: whether large tensors are stored in int8 and all others in float16 (smaller files); if not, large
-            tensors are stored in float16 and all others unchanged.
-    """
-
-    kind: str
+    kind: str  # key of the configuration in config.json
     methods: Mapping[str, type[M]]
-    default: Path
-    advice: str
-    is_int8: bool = False
+    default: Path  # directory of the weights that ship with the package
+    advice: str  # what to do if the weights cannot be used; part of error messages
+    is_int8: bool = False  # store large tensors in int8, others in float16; else large in float16, others unchanged
 
     def save(self, model: M, directory: Path, training: dict[str, Any]) -> None:
-        """Write a model, and round the model's own weights to the stored precision, as `load` will return them.
-
-        Args:
-            model: on the CPU.
-            directory: created if it is missing.
-            training: how the model was trained, for config.json.
-        """
+        """Write a model on the CPU and how it was trained, and round its own weights to the stored precision."""
         stored = round_weights(model, self.is_int8)
         replace_file(directory / WEIGHTS_FILE, save({name: tensor.contiguous() for name, tensor in stored.items()}))
         record = {
@@ -87,10 +72,7 @@ class Checkpoints(Generic[M]):
         replace_file(directory / CONFIG_FILE, (json.dumps(record, indent=2) + "\n").encode())
 
     def load(self, directory: Path | None = None) -> M:
-        """Load a model in evaluation mode.
-
-        Args:
-            directory: with model.safetensors and config.json; None for the weights that ship with the package.
+        """Load a model in evaluation mode; None for the weights that ship with the package.
 
         Raises:
             WeightsError: a file is missing or broken, or the weights do not match the configuration.

@@ -1,4 +1,4 @@
-"""Arithmetic as machine code."""
+"""Compilation of numeric loops to machine code by numba."""
 
 import hashlib
 import os
@@ -10,36 +10,37 @@ import numba
 import numpy as np
 import numpy.typing as npt
 
-_NUMBA: Final[Any] = numba.config
-_CHOSEN: Final = _NUMBA.CACHE_DIR  # by NUMBA_CACHE_DIR
+_CONFIG: Final[Any] = numba.config
+_CACHE_DIR: Final = _CONFIG.CACHE_DIR  # from NUMBA_CACHE_DIR
 
-HALVES: Final = np.arange(1 << 16, dtype=np.uint16).view(np.float16).astype(np.float32)  # it knows no half precision
+# The float32 value of each float16 bit pattern, because numba does not support half precision.
+FLOAT16_VALUES: Final = np.arange(1 << 16, dtype=np.uint16).view(np.float16).astype(np.float32)
 
 
 def compiled(function: Any) -> Any:
-    """A function as machine code, kept for the next process where it may be written; x / 0 is as NumPy has it."""
+    """Compile a function, cached on disk where possible; division by zero gives inf or NaN, as in NumPy."""
     function.stamp = _stamp(function)
-    _NUMBA.CACHE_DIR = str(_room(function) / function.stamp)
+    _CONFIG.CACHE_DIR = str(_cache_parent(function) / function.stamp)
     try:
         return numba.njit(cache=True, error_model="numpy", nogil=True)(function)
-    except RuntimeError:  # a read-only installation, and no home
+    except RuntimeError:  # neither the installation nor the home directory is writable
         return numba.njit(error_model="numpy", nogil=True)(function)
     finally:
-        _NUMBA.CACHE_DIR = _CHOSEN
+        _CONFIG.CACHE_DIR = _CACHE_DIR
 
 
 def _stamp(function: Any) -> str:
-    """What of the sources its machine code depends on; numba itself looks at its own file alone."""
-    known = hashlib.sha256(_source(function.__code__.co_filename))
+    """Return a hash of the function's file and of the globals that it uses; numba checks the file only."""
+    digest = hashlib.sha256(_source(function.__code__.co_filename))
     for name in function.__code__.co_names:
-        used = function.__globals__.get(name)
-        if hasattr(used, "py_func"):
-            known.update(used.py_func.stamp.encode())
-        elif isinstance(used, np.ndarray):
-            known.update(used.tobytes())
-        elif isinstance(used, int | float | tuple | np.generic):
-            known.update(repr(used).encode())
-    return known.hexdigest()[:16]
+        value = function.__globals__.get(name)
+        if hasattr(value, "py_func"):
+            digest.update(value.py_func.stamp.encode())
+        elif isinstance(value, np.ndarray):
+            digest.update(value.tobytes())
+        elif isinstance(value, int | float | tuple | np.generic):
+            digest.update(repr(value).encode())
+    return digest.hexdigest()[:16]
 
 
 @lru_cache
@@ -47,15 +48,14 @@ def _source(path: str) -> bytes:
     return Path(path).read_bytes()
 
 
-def _room(function: Any) -> Path:
-    """Where its machine code may be kept."""
-    beside = Path(function.__code__.co_filename).parent
-    if _CHOSEN or os.access(beside, os.W_OK):
-        return Path(_CHOSEN or beside / "__pycache__")
+def _cache_parent(function: Any) -> Path:
+    folder = Path(function.__code__.co_filename).parent
+    if _CACHE_DIR or os.access(folder, os.W_OK):
+        return Path(_CACHE_DIR or folder / "__pycache__")
     return Path("~/.cache/hereabouts").expanduser()
 
 
 @compiled
 def longer(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """An array with room for as many rows again."""
+    """Return an array with room for twice as many rows."""
     return np.concatenate((array, np.empty_like(array)))

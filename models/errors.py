@@ -1,18 +1,4 @@
-"""The errors that a user can cause; each message says what is wrong and what to do next.
-
-HereaboutsError
-├── MapError             a map that cannot be read or has nothing to index
-├── DataError            data set files that cannot be read; the message names file and field
-├── DescriptionError     a text that cannot be used as a description
-├── ReplyError           an answer to a question that the service did not ask
-├── WeightsError         weights that are missing, broken or of another model
-├── StoreUnavailable     an external vector store that cannot be reached
-├── ClusterUnavailable   a Ray cluster that cannot be reached or has lost a job
-├── TrainingError        invalid training settings, a diverging run, or a run directory of another run
-└── IndexUnusable         an index directory that cannot be used
-    ├── IndexBroken      missing, truncated or changed after it was written
-    └── IndexMismatch    built with another model
-"""
+"""The errors that a user can cause; each message says what is wrong and what to do next."""
 
 
 class HereaboutsError(Exception):
@@ -34,10 +20,7 @@ class DescriptionError(HereaboutsError):
 class ReplyError(HereaboutsError):
     """An answer to a question that the service cannot have asked about this map.
 
-    Attributes:
-        number: index of the answer within its query, from 0.
-        field: the invalid field, "question" or "choice".
-        advice: what to do instead.
+    `number` counts the answers of a query from 0; `field` is "question" or "choice".
     """
 
     def __init__(self, number: int, field: str, advice: str) -> None:

@@ -24,16 +24,11 @@ TEMP_PREFIX: Final = ".building-"  # of the name of a file or directory that is 
 
 
 class FileRecord(BaseModel):
-    """The checksum and size of a file in a manifest.
-
-    Attributes:
-        sha256: of the contents, in hex.
-        bytes: size of the file.
-    """
+    """The checksum and size of a file in a manifest."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    sha256: str
+    sha256: str  # in hex
     bytes: int
 
 

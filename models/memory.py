@@ -28,11 +28,7 @@ def map_file(
 ) -> npt.NDArray[Any]:
     """Map a file as an array; its pages are read on access, and `drop_pages` releases them.
 
-    Args:
-        file: the file.
-        dtype: of the array.
-        shape: of the array; None for the whole file in one dimension.
-        mode: "c" keeps changes out of the file, and `drop_pages` discards them; "r+" writes them to the file.
+    Mode "c" keeps changes out of the file, and `drop_pages` discards them; "r+" writes them to the file.
     """
     mapped = np.memmap(file, dtype, mode, shape=shape)
     _mappings.add(mapped._mmap)  # type: ignore[attr-defined]

@@ -9,7 +9,7 @@ from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from functools import partial
 from multiprocessing.connection import Connection
-from typing import Any, TypeVar
+from typing import Any, Final, TypeVar
 
 from models.errors import DataError
 from models.memory import drop_pages, frozen_objects, release_memory
@@ -17,104 +17,99 @@ from models.memory import drop_pages, frozen_objects, release_memory
 Task = TypeVar("Task")
 Result = TypeVar("Result")
 
-FEW = 4  # tasks that are done at once in this process
+MIN_FORKED_TASKS: Final = 4  # for fewer, starting processes takes longer than the work
 
-_work: Callable[[Any], Any] | None = None  # what forked workers inherit, set before they start
-_alone = False
+_work: Callable[[Any], Any] | None = None  # set before workers are forked, so that they inherit it
+_in_one_process = False
 
 
 @contextmanager
 def one_process() -> Iterator[None]:
-    """Have all work done in this process: it has threads, of which a fork knows nothing, or its neighbours the CPUs."""
-    global _alone  # noqa: PLW0603  # deep below who knows of it
-    before, _alone = _alone, True
+    """Do all work in this process while the block runs, because it has threads or other processes use the CPUs."""
+    global _in_one_process  # noqa: PLW0603 - read deep inside the job
+    before, _in_one_process = _in_one_process, True
     try:
         yield
     finally:
-        _alone = before
+        _in_one_process = before
 
 
 def map_forked(work: Callable[[Task], Result], tasks: Sequence[Task]) -> Iterator[Result]:
-    """The results of some tasks, in order; tasks and results travel between processes, the work does not.
+    """Yield the results of tasks in order, from forked processes if there are several tasks.
 
-    Args:
-        work: a function, or a partial one that holds the arrays it reads.
-        tasks: what it is called with; few of them are done without other processes.
+    Tasks and results are pickled, the work is not; it may be a partial function that holds large arrays.
     """
-    global _work  # noqa: PLW0603  # forked workers inherit it; an argument would be copied a task
-    if _alone or len(tasks) < FEW:
+    global _work  # noqa: PLW0603 - an argument would be pickled for each task
+    if _in_one_process or len(tasks) < MIN_FORKED_TASKS:
         yield from map(work, tasks)
         return
     _work = work
     release_memory()
     try:
         context = multiprocessing.get_context("fork")
-        with frozen_objects(), ProcessPoolExecutor(mp_context=context, initializer=_begin) as pool:
-            yield from pool.map(_call, tasks)
+        with frozen_objects(), ProcessPoolExecutor(mp_context=context, initializer=_prepare_process) as pool:
+            yield from pool.map(_run_task, tasks)
     finally:
         _work = None
 
 
+def _run_task(task: Any) -> Any:
+    assert _work is not None
+    result = _work(task)
+    drop_pages()  # the next task reads other rows of mapped columns
+    return result
+
+
 @contextmanager
 def forked(work: Callable[[], Result]) -> Iterator[Callable[[], Result]]:
-    """Have work done in a process of its own while the block runs; what is given waits for its result.
+    """Run work in a forked process while the block runs; yield a function that waits for the result.
 
-    Args:
-        work: what to do; it shares nothing out to further processes.
+    The work itself runs in one process.
 
     Raises:
         DataError: the process was killed.
     """
-    if _alone:
+    if _in_one_process:
         yield work
         return
-    ours, its = multiprocessing.Pipe(duplex=False)
-    process = multiprocessing.get_context("fork").Process(target=_do, args=(work, its))
+    receiver, sender = multiprocessing.Pipe(duplex=False)
+    process = multiprocessing.get_context("fork").Process(target=_run_and_send, args=(work, sender))
     process.start()
-    its.close()
+    sender.close()
     try:
-        yield partial(_result_of, ours)
+        yield partial(_receive, receiver)
     finally:
         process.terminate()
         process.join()
-        ours.close()
+        receiver.close()
 
 
-def _do(work: Callable[[], Any], result: Connection) -> None:
-    """What the process of `forked` does."""
-    _begin()
+def _run_and_send(work: Callable[[], Any], sender: Connection) -> None:
+    _prepare_process()
     try:
         with one_process():
-            done = True, work()
-    except Exception as error:  # whoever waits for it raises it
-        done = False, error
-    result.send(done)
+            outcome = True, work()
+    except Exception as error:  # `_receive` raises it in the parent
+        outcome = False, error
+    sender.send(outcome)
 
 
-def _result_of(result: Connection) -> Any:
+def _receive(receiver: Connection) -> Any:
     try:
-        is_done, value = result.recv()
+        has_succeeded, value = receiver.recv()
     except EOFError as error:
         raise DataError(
             "a process of this job was killed; give it more memory, or take a part of the map (--within)"
         ) from error
-    if is_done:
+    if has_succeeded:
         return value
     raise value
 
 
-def _begin() -> None:
-    """What a forked process does first.
-
-    It uses one thread: the others of the parent's libraries are not in it, and it would wait for them for ever.
-    """
+def _prepare_process() -> None:
+    """Use one thread, because those of the parent's libraries were not forked, and end when the parent is killed."""
     if "torch" in sys.modules:
         sys.modules["torch"].set_num_threads(1)
-    _watch_parent()
-
-
-def _watch_parent() -> None:
-    """Have a worker end when its parent is killed: it has both ends of the pipe at which it waits for tasks."""
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
 
@@ -123,10 +118,3 @@ def _end_with_parent() -> None:
     assert parent is not None
     parent.join()
     os._exit(1)
-
-
-def _call(task: Any) -> Any:
-    assert _work is not None
-    result = _work(task)
-    drop_pages()  # the next task reads other rows of mapped columns
-    return result

@@ -1,4 +1,7 @@
-"""Columns that are made some rows at a time and lie on disk: of a city they are larger than all else of a job."""
+"""Columns that are built from blocks of rows and lie in temporary files if they are large.
+
+While a city is indexed, its columns would take more memory than everything else.
+"""
 
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
@@ -14,145 +17,140 @@ from models.files import scratch_directory
 from models.memory import drop_pages, map_file
 
 Column = npt.NDArray[Any]
-HELD: Final = 2**20  # bytes of a column, up to which it stays in memory
-AT_ONCE: Final = 2**20  # rows
-_room: Path | None = None
+MAX_BYTES_IN_MEMORY: Final = 2**20  # a larger column goes to a file
+ROWS_PER_BLOCK: Final = 2**20
+_directory: Path | None = None  # of the temporary files; None for TMPDIR
 
 
 @contextmanager
 def spooling_in(directory: Path) -> Iterator[None]:
-    """Have what is spooled lie in a directory while the block runs: where temporary files lie may be in memory."""
-    global _room  # noqa: PLW0603  # deep below who knows of it
-    before, _room = _room, directory
+    """Put temporary files into a directory while the block runs, because TMPDIR may be in memory."""
+    global _directory  # noqa: PLW0603 - read deep inside the job
+    before, _directory = _directory, directory
     try:
         yield
     finally:
-        _room = before
+        _directory = before
 
 
 @contextmanager
-def scratch() -> Iterator[Path]:
-    """An empty directory where what is spooled lies, which is removed when the block ends.
+def spool_directory() -> Iterator[Path]:
+    """Yield an empty directory among the temporary files, removed when the block ends.
 
     Raises:
-        DataError: there is no room.
+        DataError: the directory cannot be created.
     """
-    with ExitStack() as made:
-        with spooling():
-            if _room is None:
-                directory = Path(made.enter_context(TemporaryDirectory()))
-            else:
-                directory = made.enter_context(scratch_directory(_room))
+    with ExitStack() as stack:
+        with disk_errors():
+            scratch = TemporaryDirectory() if _directory is None else scratch_directory(_directory)
+            directory = Path(stack.enter_context(scratch))
         yield directory
 
 
-def spooled(parts: Iterable[Mapping[str, Column]]) -> dict[str, Column]:
-    """The columns of some tables, at least one, one after the other; see Spool."""
+@contextmanager
+def disk_errors() -> Iterator[None]:
+    """Raise a DataError if a temporary file cannot be written."""
+    try:
+        yield
+    except OSError as error:
+        advice = "give another directory" if _directory else "have TMPDIR name another directory"
+        raise DataError(f"{_directory or gettempdir()} cannot be written: {error}; make room, or {advice}") from error
+
+
+class Spool:
+    """Columns that grow; large ones are unnamed temporary files, which disappear with the arrays.
+
+    Their pages are read on access; `models.memory.drop_pages` releases them.
+    """
+
+    def __init__(self) -> None:
+        self._columns = dict[str, _GrowingColumn]()
+
+    def add(self, rows: Mapping[str, Column]) -> None:
+        """Append rows to each column; all rows of a column have one type and shape.
+
+        Raises:
+            DataError: the disk is full.
+        """
+        for name, values in rows.items():
+            self._columns.setdefault(name, _GrowingColumn()).append(values)
+
+    def columns(self) -> dict[str, Column]:
+        """Return all rows; nothing can be added afterwards."""
+        return {name: column.array() for name, column in self._columns.items()}
+
+
+class _GrowingColumn:
+    """A column that moves to a file once it is large."""
+
+    def __init__(self) -> None:
+        self._blocks, self._bytes, self._rows = list[Column](), 0, 0
+        self._file: IO[bytes] | None = None
+
+    def append(self, rows: Column) -> None:
+        self._blocks.append(rows)
+        self._bytes += rows.nbytes
+        self._rows += len(rows)
+        if self._file is not None or self._bytes > MAX_BYTES_IN_MEMORY:
+            with disk_errors():
+                self._file = self._file or TemporaryFile(dir=_directory)  # noqa: SIM115 - `array` closes it
+                for block in self._blocks:
+                    self._file.write(np.ascontiguousarray(block).data)
+            self._blocks = [rows[:0].copy()]  # keeps the type
+
+    def array(self) -> Column:
+        if self._file is None:
+            return self._blocks[0] if len(self._blocks) == 1 else np.concatenate(self._blocks)
+        empty = self._blocks[0]
+        with disk_errors(), self._file as file:
+            file.flush()
+            return map_file(file, empty.dtype, (self._rows, *empty.shape[1:]))
+
+
+def spooled(tables: Iterable[Mapping[str, Column]]) -> dict[str, Column]:
+    """Return the concatenated columns of one or more tables, through a `Spool`."""
     spool = Spool()
-    for part in parts:
-        spool.add(part)
+    for table in tables:
+        spool.add(table)
     return spool.columns()
 
 
-def on_disk(rows: int, dtype: npt.DTypeLike) -> Column:
-    """Numbers to be written in any order, in a file without a name if they are many; at first zeros.
+def spooled_zeros(rows: int, dtype: npt.DTypeLike) -> Column:
+    """Return zeros that can be overwritten in any order, in a temporary file if they are many.
 
     Raises:
-        DataError: there is no room.
+        DataError: the disk is full.
     """
     size = rows * np.dtype(dtype).itemsize
-    if size <= HELD:
+    if size <= MAX_BYTES_IN_MEMORY:
         return np.zeros(rows, dtype)
-    with spooling(), TemporaryFile(dir=_room) as file:
-        # Written, not left out: where there is no room, who writes into the array later would be killed.
-        for first in range(0, size, HELD):
-            file.write(bytes(min(HELD, size - first)))
+    with disk_errors(), TemporaryFile(dir=_directory) as file:
+        # A sparse file would kill the process that later writes into the array of a full disk.
+        for first in range(0, size, MAX_BYTES_IN_MEMORY):
+            file.write(bytes(min(MAX_BYTES_IN_MEMORY, size - first)))
         file.flush()
         return map_file(file, dtype, (rows,), "r+")
 
 
 def starts_of(sizes: Column) -> Column:
-    """[n + 1] int32 where each of n runs of some sizes begins, and the end; on disk if they are many.
+    """Return the start of each of n consecutive runs, and the end of the last, [n + 1] int32.
 
     Raises:
-        DataError: there is no room, or the end is no int32.
+        DataError: the disk is full, or there are too many rows for int32.
     """
-    found, end = on_disk(len(sizes) + 1, np.int32), 0
-    for first in range(0, len(sizes), AT_ONCE):
-        some = np.cumsum(sizes[first : first + AT_ONCE], dtype=np.int64) + end
-        found[first + 1 : first + 1 + len(some)], end = some, int(some[-1])
+    starts, end = spooled_zeros(len(sizes) + 1, np.int32), 0
+    for first in range(0, len(sizes), ROWS_PER_BLOCK):
+        ends = np.cumsum(sizes[first : first + ROWS_PER_BLOCK], dtype=np.int64) + end
+        starts[first + 1 : first + 1 + len(ends)], end = ends, int(ends[-1])
     if end > np.iinfo(np.int32).max:
         raise DataError(
             f"the map is too large for one index: it has {end} rows of a kind; take a part of it (--within)"
         )
-    return found
+    return starts
 
 
-def in_turn(columns: Mapping[str, Column]) -> Iterator[dict[str, Column]]:
-    """Columns of one length, some rows after the other; what was looked at takes no memory any more."""
-    for first in range(0, max(map(len, columns.values())), AT_ONCE):
-        yield {name: column[first : first + AT_ONCE] for name, column in columns.items()}
+def row_blocks(columns: Mapping[str, Column]) -> Iterator[dict[str, Column]]:
+    """Yield blocks of rows of columns of one length, and drop the pages of each block afterwards."""
+    for first in range(0, max(map(len, columns.values())), ROWS_PER_BLOCK):
+        yield {name: column[first : first + ROWS_PER_BLOCK] for name, column in columns.items()}
         drop_pages()
-
-
-@contextmanager
-def spooling() -> Iterator[None]:
-    """Say so where a temporary file cannot be written."""
-    try:
-        yield
-    except OSError as error:
-        advice = "give another directory" if _room else "have TMPDIR name another directory"
-        raise DataError(f"{_room or gettempdir()} cannot be written: {error}; make room, or {advice}") from error
-
-
-class Spool:
-    """Columns that grow, large ones in files without names, which go with their readers.
-
-    The files lie where `spooling_in` says, else in the directory of temporary files (TMPDIR). Their pages are read on
-    access; `models.memory.drop_pages` releases them.
-    """
-
-    def __init__(self) -> None:
-        self._columns = dict[str, _Growing]()
-
-    def add(self, part: Mapping[str, Column]) -> None:
-        """Put some rows at the end of columns; of each all have the same type, and rows of the same shape.
-
-        Raises:
-            DataError: there is no room.
-        """
-        for name, rows in part.items():
-            self._columns.setdefault(name, _Growing()).append(rows)
-
-    def columns(self) -> dict[str, Column]:
-        """All rows; nothing is added after that."""
-        return {name: column.array() for name, column in self._columns.items()}
-
-
-class _Growing:
-    """A column that grows."""
-
-    def __init__(self) -> None:
-        self._held, self._bytes, self._rows = list[Column](), 0, 0
-        self._file: IO[bytes] | None = None
-
-    def append(self, rows: Column) -> None:
-        """Put some at the end."""
-        self._held.append(rows)
-        self._bytes += rows.nbytes
-        self._rows += len(rows)
-        if self._file is not None or self._bytes > HELD:
-            with spooling():
-                self._file = self._file or TemporaryFile(dir=_room)  # noqa: SIM115 - `array` closes it
-                for held in self._held:
-                    self._file.write(np.ascontiguousarray(held).data)
-            self._held = [rows[:0].copy()]  # it tells the type
-
-    def array(self) -> Column:
-        """All of them."""
-        if self._file is None:
-            return self._held[0] if len(self._held) == 1 else np.concatenate(self._held)
-        like = self._held[0]
-        with spooling(), self._file as file:
-            file.flush()
-            return map_file(file, like.dtype, (self._rows, *like.shape[1:]))

@@ -25,7 +25,7 @@ from models.posterior.neighbours.scan_index import ScanNeighbourIndex
 from models.processes import forked
 from models.sources.osm.extract import Region, extracted_file
 from models.sources.source import open_source
-from models.spool import scratch, spooling_in
+from models.spool import spool_directory, spooling_in
 
 
 def no_progress(_stage: str, _done: int, _total: int) -> None:
@@ -64,7 +64,7 @@ class IndexJob:
             return current
         with (
             self._working_directory(),
-            scratch() as names_directory,
+            spool_directory() as names_directory,
             self._map_file(report) as path,
             forked(partial(save_names, path, names_directory)) as names,
         ):
@@ -106,7 +106,7 @@ class IndexJob:
         if version is None:
             report("check parts", 0, 0)
             shards.check(count)
-            with self._working_directory(), scratch() as names_directory, self._map_file(report) as path:
+            with self._working_directory(), spool_directory() as names_directory, self._map_file(report) as path:
                 source = open_source(path, self.split, report)
                 shards_data = shards.read(count, self._encoder(models).levels, source.data.cells)
                 scanned = [shard_data.scanned for shard_data in shards_data if shard_data.scanned is not None]

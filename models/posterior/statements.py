@@ -17,7 +17,7 @@ from models.citymap.cells import CELLS_PER_BLOCK
 from models.citymap.hints import ON_TOP_M
 from models.citymap.points import Ints
 from models.citymap.types import Floats
-from models.compiled import HALVES, compiled
+from models.compiled import FLOAT16_VALUES, compiled
 from models.errors import IndexBroken
 from models.files import map_arrays, save_safetensors
 from models.posterior.likelihood import BoundHints, Likelihood
@@ -25,7 +25,7 @@ from models.posterior.neighbours.neighbour_index import NeighbourIndex
 from models.posterior.neighbours.neighbours import STEP_M
 from models.posterior.node_batch import OFFSET_STEPS, NodeBatch
 from models.processes import map_forked
-from models.spool import on_disk, spooled
+from models.spool import spooled, spooled_zeros
 
 FILE: Final = "statements.safetensors"
 SECTORS: Final = 9  # of a statement: the eight winds and "on-top"
@@ -73,7 +73,7 @@ class Statements:
         count = np.sum([_count(part.statement, part.possible) for part in rows], axis=0)
         number = np.flatnonzero(count)  # some thousands
         starts = np.concatenate([[0], np.cumsum(count[number])])
-        cell, share = on_disk(int(starts[-1]), np.int32), on_disk(int(starts[-1]), np.float16)
+        cell, share = spooled_zeros(int(starts[-1]), np.int32), spooled_zeros(int(starts[-1]), np.float16)
         free = np.cumsum(count) - count  # next free entry of each statement
         cells = 0
         for part in rows:
@@ -129,7 +129,7 @@ class Statements:
         for start in range(cells.start, cells.stop, CELLS_PER_SLICE):
             shape = len(weights), min(CELLS_PER_SLICE, cells.stop - start)
             hint_share = np.full(shape, MIN_HINT_SHARE, np.float32)
-            _add(position, ends, self.cell, self.share.view(np.uint16), HALVES, weights, start, hint_share)
+            _add(position, ends, self.cell, self.share.view(np.uint16), FLOAT16_VALUES, weights, start, hint_share)
             _sum(np.log(hint_share, out=hint_share), presence, total[start : start + shape[1]])
         return total
 

@@ -91,7 +91,7 @@ class Place:
     def default(self):
         return read_aliases(self.root).aliases["default"]
 
-    def on_disk(self):
+    def spooled_zeros(self):
         """What would show that anything was done."""
         names = [*self.root.rglob("*"), *self.jobs.iterdir()]
         return set(map(str, names)), (self.root / ALIASES_FILE).read_bytes()

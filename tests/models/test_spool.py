@@ -7,7 +7,7 @@ from models import spool
 from models.errors import DataError
 from models.files import TEMP_PREFIX
 from models.memory import drop_pages
-from models.spool import in_turn, on_disk, scratch, spooled, spooling_in, starts_of
+from models.spool import row_blocks, spool_directory, spooled, spooled_zeros, spooling_in, starts_of
 
 
 def parts(sizes):
@@ -20,7 +20,7 @@ def parts(sizes):
 @pytest.mark.parametrize("held", [0, 40, 2**30])
 @pytest.mark.parametrize("sizes", [[5], [0, 3, 0, 7], [0, 0]])
 def test_columns_are_those_of_the_parts_on_disk_or_not(held, sizes, monkeypatch) -> None:
-    monkeypatch.setattr(spool, "HELD", held)
+    monkeypatch.setattr(spool, "MAX_BYTES_IN_MEMORY", held)
     found = spooled(iter(parts(sizes)))
     assert set(found) == {"wide", "number"}
     for name, column in found.items():
@@ -31,11 +31,11 @@ def test_columns_are_those_of_the_parts_on_disk_or_not(held, sizes, monkeypatch)
 
 
 def test_what_lies_on_disk_takes_no_memory_but_while_it_is_looked_at(monkeypatch, tmp_path) -> None:
-    monkeypatch.setattr(spool, "HELD", 10)
-    monkeypatch.setattr(spool, "AT_ONCE", 20_000)
+    monkeypatch.setattr(spool, "MAX_BYTES_IN_MEMORY", 10)
+    monkeypatch.setattr(spool, "ROWS_PER_BLOCK", 20_000)
     with spooling_in(tmp_path):
         columns = spooled(parts([100_000] * 3))
-    seen = [(resident(tmp_path), some["wide"].sum(), len(some["number"])) for some in in_turn(columns)]
+    seen = [(resident(tmp_path), some["wide"].sum(), len(some["number"])) for some in row_blocks(columns)]
     assert sum(rows for _, _, rows in seen) == 300_000
     assert max(kib for kib, _, _ in seen) < 500, "of 3.6 MB"
     assert columns["wide"].sum() == pytest.approx(sum(total for _, total, _ in seen), abs=1)
@@ -57,8 +57,8 @@ def resident(directory: Path) -> int:
 
 @pytest.mark.parametrize("held", [1000, 2**30])
 def test_numbers_are_written_in_any_order(held, monkeypatch) -> None:
-    monkeypatch.setattr(spool, "HELD", held)
-    found = on_disk(50_000, np.int32)
+    monkeypatch.setattr(spool, "MAX_BYTES_IN_MEMORY", held)
+    found = spooled_zeros(50_000, np.int32)
     assert not found.any()
     order = np.random.default_rng(0).permutation(50_000)
     found[order] = np.arange(50_000)
@@ -69,8 +69,8 @@ def test_numbers_are_written_in_any_order(held, monkeypatch) -> None:
 @pytest.mark.parametrize("held", [1, 2**30])
 @pytest.mark.parametrize("sizes", [[], [3], [0, 2, 0, 5, 1, 0, 0, 4]])
 def test_runs_begin_where_those_before_them_end(held, sizes, monkeypatch) -> None:
-    monkeypatch.setattr(spool, "HELD", held)
-    monkeypatch.setattr(spool, "AT_ONCE", 3)
+    monkeypatch.setattr(spool, "MAX_BYTES_IN_MEMORY", held)
+    monkeypatch.setattr(spool, "ROWS_PER_BLOCK", 3)
     found = starts_of(np.array(sizes, np.int16))
     assert found.dtype == np.int32
     assert found.tolist() == [sum(sizes[:n]) for n in range(len(sizes) + 1)]
@@ -83,23 +83,23 @@ def test_more_rows_than_can_be_numbered_are_said() -> None:
 
 
 def test_a_full_disk_is_said(monkeypatch, tmp_path) -> None:
-    monkeypatch.setattr(spool, "HELD", 10)
+    monkeypatch.setattr(spool, "MAX_BYTES_IN_MEMORY", 10)
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "missing"))
     with pytest.raises(DataError, match=r"missing cannot be written: .*TMPDIR"):
         spooled(parts([1000]))
 
 
 def test_a_full_index_directory_is_said_and_scratch_is_removed(tmp_path) -> None:
-    with spooling_in(tmp_path), scratch() as directory:
+    with spooling_in(tmp_path), spool_directory() as directory:
         assert directory.parent == tmp_path
         (directory / "strip").write_text("some")
     assert not list(tmp_path.iterdir())
     (tmp_path / f"{TEMP_PREFIX}0").mkdir()
-    with spooling_in(tmp_path), scratch() as directory:
+    with spooling_in(tmp_path), spool_directory() as directory:
         assert list(tmp_path.iterdir()) == [directory], "what a killed process left is gone"
     with (
         spooling_in(tmp_path / "missing"),
         pytest.raises(DataError, match=r"missing cannot be written: .*another directory"),
-        scratch(),
+        spool_directory(),
     ):
         pass

@@ -16,7 +16,7 @@ from models.citymap.geometry.tiling import BEYOND_MAP_M, TILE_M, TOUCHING_M, Geo
 from models.citymap.points import Ints, block_keys, ranges, thin_to_spacing
 from models.citymap.types import Floats
 from models.compiled import compiled
-from models.spool import in_turn, spooled, starts_of
+from models.spool import row_blocks, spooled, starts_of
 
 PIECES_PER_BLOCK: Final = 20_000  # pieces whose geometries are built at a time, to bound memory
 TILE_COLUMNS_PER_BLOCK: Final = 64  # columns of tiles whose pieces are linked together
@@ -58,7 +58,8 @@ class PieceTable:
             links=links["links"], **columns,
         )  # fmt: skip
         tiles = (
-            {"tile": np.stack([block["column"], block["row"]], 1)} for block in in_turn({"column": column, "row": row})
+            {"tile": np.stack([block["column"], block["row"]], 1)}
+            for block in row_blocks({"column": column, "row": row})
         )
         table.__dict__["tile"] = spooled(tiles)["tile"]  # on disk, before the property makes it in memory
         return table
@@ -74,7 +75,7 @@ class PieceTable:
 
     def renumber_instances(self, numbers: Ints) -> "PieceTable":
         """Return the table with instances numbered by their place among `numbers` [I], ascending."""
-        blocks = (block["instance"] for block in in_turn({"instance": self.instance}))
+        blocks = (block["instance"] for block in row_blocks({"instance": self.instance}))
         table = replace(
             self, **spooled({"instance": np.searchsorted(numbers, block).astype(np.int32)} for block in blocks)
         )

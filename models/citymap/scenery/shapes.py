@@ -12,7 +12,7 @@ import shapely
 from models.citymap.points import ranges
 from models.citymap.scenery.files import SceneryBlob
 from models.citymap.types import Floats, MapShape
-from models.spool import AT_ONCE, Spool, spooled
+from models.spool import ROWS_PER_BLOCK, Spool, spooled
 
 UNITS_PER_M: Final = 10  # coordinates are sent in decimetres
 SIMPLIFY_TOLERANCE_M: Final = 0.3  # greatest distance of a drawn outline from the mapped one
@@ -125,8 +125,8 @@ def _sorted_tensors(columns: Mapping[str, npt.NDArray[Any]], order: npt.NDArray[
     """Yield the tensors of Outlines from the columns of drawn objects, some objects at a time."""
     ends = {name: np.cumsum(columns[name], dtype=np.int64) for name in ("paths", "size")}
     last = np.zeros((1, 2), np.int32)
-    for first in range(0, len(order) or 1, AT_ONCE):
-        rows = order[first : first + AT_ONCE]
+    for first in range(0, len(order) or 1, ROWS_PER_BLOCK):
+        rows = order[first : first + ROWS_PER_BLOCK]
         paths = _group_rows(ends["paths"], columns["paths"], rows)
         xy = columns["xy"][_group_rows(ends["size"], columns["size"], paths)]
         tensors = {

@@ -24,7 +24,7 @@ from models.files import map_arrays
 from models.posterior.neighbours.map_objects import MapObjects
 from models.posterior.neighbours.neighbours import STEP_M, Neighbours
 from models.posterior.neighbours.nodes import SPACING_M, central_nodes, owner_of, put_in_order, slices
-from models.spool import in_turn, on_disk, spooled
+from models.spool import row_blocks, spooled, spooled_zeros
 from models.strings import compact
 
 FILE: Final = "pieces.safetensors"
@@ -56,8 +56,8 @@ class PieceNeighbourIndex:
 
         spool = spooled(count_nodes())
         starts = np.concatenate([[0], np.cumsum(count)])
-        offset, free = on_disk(2 * int(starts[-1]), np.int8).reshape(-1, 2), starts[:-1].copy()
-        for columns in in_turn(spool):
+        offset, free = spooled_zeros(2 * int(starts[-1]), np.int8).reshape(-1, 2), starts[:-1].copy()
+        for columns in row_blocks(spool):
             put_in_order(columns["owner"], columns["offset"], free, offset)
         return cls(objects, compact(starts), offset, bodies.pieces, bodies.rules, center_m)
 

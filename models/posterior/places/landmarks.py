@@ -15,7 +15,7 @@ from models.citymap.gazetteer.gazetteer import Gazetteer
 from models.citymap.gazetteer.name_columns import STREET_KIND
 from models.citymap.points import Ints, ranges
 from models.citymap.types import Floats
-from models.compiled import HALVES, compiled
+from models.compiled import FLOAT16_VALUES, compiled
 from models.errors import IndexBroken
 from models.files import map_arrays
 from models.posterior.places.addresses import Addresses
@@ -54,7 +54,7 @@ class NameProbabilityTable:
         """Return the probability [N] of any of the names."""
         is_chosen = np.zeros(self.names, np.bool_)
         is_chosen[names] = True
-        return _sums(self.starts, self.name, self.chance.view(np.uint16), HALVES, is_chosen)
+        return _sums(self.starts, self.name, self.chance.view(np.uint16), FLOAT16_VALUES, is_chosen)
 
     def columns(self, name: str) -> dict[str, Column]:
         """Return the arrays that `from_columns` reads."""

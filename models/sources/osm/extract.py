@@ -12,7 +12,7 @@ from shapely.errors import ShapelyError
 
 from models.errors import MapError
 from models.sources.osm.map import SUFFIXES, explained_errors
-from models.spool import scratch
+from models.spool import spool_directory
 
 REGION_FORMS = "give west,south,east,north in degrees, or a GeoJSON file with a polygon"
 
@@ -57,7 +57,7 @@ def extracted_file(path: Path, region: Region | None) -> Iterator[Path]:
         return
     if not path.is_file() or not path.name.lower().endswith(SUFFIXES):
         raise MapError(f"{path}: --within needs an OpenStreetMap file; leave it out, or give such a file")
-    with scratch() as directory:
+    with spool_directory() as directory:
         out = directory / f"{path.name.split('.')[0]}.osm.pbf"
         extract(path, region, out)
         yield out

@@ -18,7 +18,7 @@ from models.citymap.points import Ints, ranges
 from models.processes import map_forked
 from models.sources.osm.classes import load_classes
 from models.sources.osm.features import UPRIGHT_MERGE_M, Feature, find_joins
-from models.spool import spooling
+from models.spool import disk_errors
 
 UPRIGHT_SHAPE: Final = "column"
 
@@ -59,7 +59,7 @@ class FeatureStrips:
             numbered = [
                 NumberedFeature(first + n, features[n], low[n] == number) for n in feature[strip == number].tolist()
             ]
-            with spooling(), self._path(number).open("ab") as file:
+            with disk_errors(), self._path(number).open("ab") as file:
                 pickle.dump(numbered, file, pickle.HIGHEST_PROTOCOL)
         return numbers
 

@@ -26,7 +26,7 @@ from models.sources.osm.classes import OsmClass, find_class, load_classes
 from models.sources.osm.feature_strips import FeatureStrips
 from models.sources.osm.features import Feature, build_feature
 from models.sources.osm.imported_map import ImportedMap
-from models.spool import scratch
+from models.spool import spool_directory
 
 STUFF_SHAPES = ("outline", "wall", "ground")
 SUFFIXES = (".osm.pbf", ".pbf", ".osm", ".osm.bz2", ".osm.gz")
@@ -60,7 +60,7 @@ def load_osm(path: Path, name: str | None = None) -> CityMap:
     Its default name is the file's up to the first dot. Raise MapError if the file is missing, not usable or too large.
     """
     frame, box = read_frame_and_box(path)
-    with scratch() as directory:
+    with spool_directory() as directory:
         strips = FeatureStrips(directory, read_features(path, frame, box))
         if not strips.numbers:
             raise MapError(f"{path}: it has nothing inside its own bounds; download it again, or correct its bounds")

@@ -102,7 +102,7 @@ def test_however_many_vectors_are_looked_at_together_the_file_is_the_same(
 
 @pytest.mark.skipif(not Path("/proc").is_dir(), reason="only Linux tells what of a file is in memory")
 def test_of_vectors_in_a_file_none_stay_in_memory(vectors, in_lists, monkeypatch) -> None:
-    monkeypatch.setattr(spool, "HELD", 1000)
+    monkeypatch.setattr(spool, "MAX_BYTES_IN_MEMORY", 1000)
     stored = spooled([{"vectors": vectors}])["vectors"]
     address = f"{stored.ctypes.data:x}-"
 

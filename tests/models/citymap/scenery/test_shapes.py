@@ -78,7 +78,7 @@ def test_what_is_drawn_a_part_at_a_time_is_the_same(at_once, monkeypatch) -> Non
     ]
     shapes.sort(key=lambda shape: shape.label)
     expected = Outlines.from_shapes(shapes)
-    monkeypatch.setattr(shapes_module, "AT_ONCE", at_once)
+    monkeypatch.setattr(shapes_module, "ROWS_PER_BLOCK", at_once)
     drawings, order = OutlinesBuilder(["building", "tree"]), rng.permutation(len(shapes))
     for part in np.array_split(order, 5):
         drawings.add(DrawnObjects.from_shapes([shapes[n] for n in part], part))
