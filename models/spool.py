@@ -35,11 +35,7 @@ def spooling_in(directory: Path) -> Iterator[None]:
 
 @contextmanager
 def spool_directory() -> Iterator[Path]:
-    """Yield an empty directory among the temporary files, removed when the block ends.
-
-    Raises:
-        DataError: the directory cannot be created.
-    """
+    """Yield an empty directory among the temporary files; raise DataError if it cannot be created."""
     with ExitStack() as stack:
         with disk_errors():
             scratch = TemporaryDirectory() if _directory is None else scratch_directory(_directory)
@@ -67,11 +63,7 @@ class Spool:
         self._columns = dict[str, _GrowingColumn]()
 
     def add(self, rows: Mapping[str, Column]) -> None:
-        """Append rows to each column; all rows of a column have one type and shape.
-
-        Raises:
-            DataError: the disk is full.
-        """
+        """Append rows to each column, of one type and shape per column; raise DataError if the disk is full."""
         for name, values in rows.items():
             self._columns.setdefault(name, _GrowingColumn()).append(values)
 
@@ -116,11 +108,7 @@ def spooled(tables: Iterable[Mapping[str, Column]]) -> dict[str, Column]:
 
 
 def spooled_zeros(rows: int, dtype: npt.DTypeLike) -> Column:
-    """Return zeros that can be overwritten in any order, in a temporary file if they are many.
-
-    Raises:
-        DataError: the disk is full.
-    """
+    """Return zeros to overwrite in any order, in a temporary file if many; raise DataError if the disk is full."""
     size = rows * np.dtype(dtype).itemsize
     if size <= MAX_BYTES_IN_MEMORY:
         return np.zeros(rows, dtype)

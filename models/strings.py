@@ -21,12 +21,7 @@ STRINGS_PER_BLOCK: Final = 2**17  # deduplicated together; bounds the temporary 
 
 
 class StringArray(Sequence[str]):
-    """A sequence of strings in one array; each string is decoded on access.
-
-    Args:
-        text: [B] uint8, the concatenated UTF-8 text.
-        ends: [S] the end of each string in `text`.
-    """
+    """A sequence of strings in one array of UTF-8 text [B] uint8, with the end [S] of each; decoded on access."""
 
     def __init__(self, text: Column, ends: Column) -> None:
         self._text, self._ends = text, ends
@@ -66,12 +61,7 @@ class StringArray(Sequence[str]):
 
 
 class Categorical(Sequence[Any]):
-    """A sequence of strings or None with many repetitions, stored as codes.
-
-    Args:
-        categories: the distinct strings, ascending.
-        codes: [I] index into `categories`, -1 for None.
-    """
+    """A sequence of strings or None with many repetitions: ascending categories, and codes [I], -1 for None."""
 
     def __init__(self, categories: Sequence[str], codes: Column) -> None:
         self.categories, self.codes = categories, codes
@@ -137,17 +127,11 @@ class Categorical(Sequence[Any]):
 
 @dataclass(frozen=True, eq=False)
 class Postings:
-    """An inverted index: for each key, a list of numbers.
+    """An inverted index: for each key, a list of numbers."""
 
-    Attributes:
-        keys: a trie of K keys, each with a row.
-        starts: [K + 1] row k has numbers[starts[k]:starts[k + 1]].
-        numbers: [Z] int32, the numbers of all rows.
-    """
-
-    keys: Trie
-    starts: Column
-    numbers: Column
+    keys: Trie  # a trie of K keys, each with a row
+    starts: Column  # [K + 1] row k has numbers[starts[k]:starts[k + 1]]
+    numbers: Column  # [Z] int32, the numbers of all rows
 
     @classmethod
     def from_pairs(cls, pairs: Iterable[tuple[str, int]]) -> "Postings":

@@ -39,11 +39,7 @@ class Bert(nn.Module):
 
     @classmethod
     def load(cls, directory: Path) -> Self:
-        """Read config.json and map model.safetensors into memory.
-
-        Raises:
-            OSError, ValueError: a file is missing or belongs to another kind of model.
-        """
+        """Read config.json and map model.safetensors; raise OSError or ValueError if they are no such model."""
         model = cls(BertConfig(**json.loads((directory / "config.json").read_text())))
         weights, wanted = map_arrays(directory / "model.safetensors")[0], model.state_dict()
         if missing := set(wanted) - set(weights):

@@ -53,12 +53,9 @@ def padded_rows(rows: int) -> int:
 
 
 class Int8Linear:
-    """A linear layer with weights and rows in 8 bits; processors agree up to rounding.
+    """A linear layer [to, from] with weights and rows in 8 bits; processors agree up to rounding.
 
-    Args:
-        weight: [to, from].
-        bias: [to].
-        has_int8_products: whether the processor multiplies bytes; else the integers are multiplied as floats.
+    Without `has_int8_products` of the processor, the integers are multiplied as floats.
     """
 
     def __init__(self, weight: Tensor, bias: Tensor, has_int8_products: bool = HAS_INT8_PRODUCTS) -> None:
@@ -80,11 +77,7 @@ class Int8Linear:
 
 
 class Int8Embeddings:
-    """The embeddings of a Bert with its word vectors in 8 bits, so that the float ones can be released.
-
-    Args:
-        embeddings: of a Bert.
-    """
+    """The embeddings of a Bert with its word vectors in 8 bits, so that the float ones can be released."""
 
     def __init__(self, embeddings: Any) -> None:
         self._words, self._scale = quantize_rows(embeddings.word_embeddings.weight.detach())
@@ -102,10 +95,6 @@ class Int8Layer:
     """A copy of a `bert.Layer` in 8 bits, with query, key and value in one matrix.
 
     oneDNN caches about a megabyte of machine code per number of rows, so rows are padded to few different numbers.
-
-    Args:
-        layer: any.
-        weights: by name; None for those of the layer.
     """
 
     def __init__(self, layer: Any, weights: Mapping[str, Tensor] | None = None) -> None:

@@ -22,16 +22,10 @@ _log = logging.getLogger(__name__)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BoundLabels:
-    """The labels of a map and all their names.
+    """The labels of a map and all their names."""
 
-    Attributes:
-        names: [N, W] unit vectors of names.
-        label: [N] the label that each name means; the number of labels for names of things that the map lacks.
-        count: number of labels.
-    """
-
-    names: Tensor
-    label: Tensor
+    names: Tensor  # [N, W] unit vectors of names
+    label: Tensor  # [N] the label that each name means; the number of labels for names of things that the map lacks
     count: int
 
 
@@ -69,11 +63,7 @@ class LabelMatcher(TextEncoderModel):
         return torch.stack([known[phrase] for phrase in plain])
 
     def bind(self, map_labels: Sequence[str]) -> BoundLabels:
-        """Return the labels of a map with their names.
-
-        Args:
-            map_labels: without repetition.
-        """
+        """Return the labels of a map, without repetition, with their names."""
         if not len(self.names):
             starts = range(0, len(self._names), NAMES_PER_BATCH)
             self.names = torch.cat([self.text_encoder.embed(self._names[n : n + NAMES_PER_BATCH]) for n in starts])
@@ -96,12 +86,7 @@ class LabelMatcher(TextEncoderModel):
         self._features.clear()
 
     def forward(self, nouns: Tensor, bound: BoundLabels) -> Tensor:
-        """Return log-probabilities [S, L + 1] of each label, and of none, for nouns [S, W].
-
-        Args:
-            nouns: vectors from `embed`.
-            bound: the map's labels.
-        """
+        """Return log-probabilities [S, L + 1] of each label, and of none, for nouns [S, W] from `embed`."""
         logits = self.scale.exp() * (nouns @ bound.names.T)
         highest = logits.amax(dim=1, keepdim=True)
         mass = torch.zeros(len(nouns), bound.count + 1).index_add(1, bound.label, (logits - highest).exp())

@@ -24,38 +24,24 @@ COMPASS_OF_LETTERS: Final = {
 
 @dataclass(frozen=True, slots=True)
 class Number:
-    """A number in a text.
-
-    Attributes:
-        start, end: its characters.
-        value: the number.
-        is_vague: whether it is a word such as "few".
-        is_article: whether it is the "a" of "a block".
-    """
+    """A number in a text."""
 
     start: int
     end: int
     value: float
-    is_vague: bool = False
-    is_article: bool = False
+    is_vague: bool = False  # whether it is a word such as "few"
+    is_article: bool = False  # whether it is the "a" of "a block"
 
 
 @dataclass(frozen=True, slots=True)
 class Measure:
-    """A distance in a text.
-
-    Attributes:
-        start, end: its characters.
-        metres: how far.
-        is_loose: whether its number is vague or its unit is blocks, doors or minutes.
-        is_of: whether the reference follows it: "30 m short of the bridge".
-    """
+    """A distance in a text."""
 
     start: int
     end: int
     metres: float
-    is_loose: bool = False
-    is_of: bool = False
+    is_loose: bool = False  # whether its number is vague or its unit is blocks, doors or minutes
+    is_of: bool = False  # whether the reference follows it: "30 m short of the bridge"
 
     def contains(self, span: "Span") -> bool:
         """Return whether a span is part of the measure, such as its unit."""
@@ -64,18 +50,12 @@ class Measure:
 
 @dataclass(frozen=True, slots=True)
 class Bearing:
-    """A compass direction in a text.
-
-    Attributes:
-        start, end: its characters.
-        degrees: clockwise from north.
-        is_of: whether it is "north of" something.
-    """
+    """A compass direction in a text."""
 
     start: int
     end: int
-    degrees: float
-    is_of: bool = False
+    degrees: float  # clockwise from north
+    is_of: bool = False  # whether it is "north of" something
 
 
 class Span(Protocol):
@@ -240,12 +220,7 @@ def ordinal(number: int) -> str:
 def match_facts_to_spans(text: str, facts: Sequence[Fact], spans: Sequence[Span | None]) -> dict[int, Fact]:
     """Assign each fact to the nearest span, at most one fact per span, by the index of the span.
 
-    A fact inside a span is part of a name; a span inside a fact is its unit.
-
-    Args:
-        text: the description.
-        facts: its measures or bearings.
-        spans: candidates; None for a span that takes no fact.
+    A fact inside a span is part of a name; a span inside a fact is its unit. None is a span that takes no fact.
     """
     pairs = sorted(
         (distance_in_text(text, fact, span), k, n)

@@ -34,24 +34,15 @@ SENTENCE_END: Final = re.compile(r"[.!?;\n](?:\s|$)")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ParsedHint:
-    """A thing that a description names.
+    """A thing that a description names."""
 
-    Attributes:
-        noun: the words for it.
-        start, end: characters of the text.
-        relation: [10] probability of each of RELATIONS.
-        colour: [C + 1] probability of each of COLOURS; the last, that no colour is stated.
-        absent: probability that the text states its absence.
-        measure: the stated distance; None without one.
-    """
-
-    noun: str
+    noun: str  # the words for it
     start: int
     end: int
-    relation: Tensor
-    colour: Tensor
-    absent: float
-    measure: Measure | None = None
+    relation: Tensor  # [10] probability of each of RELATIONS
+    colour: Tensor  # [C + 1] probability of each of COLOURS; the last, that no colour is stated
+    absent: float  # probability that the text states its absence
+    measure: Measure | None = None  # the stated distance; None without one
 
     def shifted(self, characters: int) -> "ParsedHint":
         """Return the hint with its characters moved by an offset."""
@@ -67,15 +58,9 @@ class ParsedHint:
 
 
 def resolve(text: str, things: Sequence[ParsedHint], kinds: Sequence[str]) -> list[ParsedHint]:
-    """Resolve things to hints: stand-ins get their noun, plurals become as many hints as they count.
+    """Resolve things in text order: a stand-in gets its noun, a plural becomes as many hints as it counts.
 
-    Args:
-        text: the description.
-        things: in text order.
-        kinds: "noun", "plural" or "stand-in" of each.
-
-    Returns:
-        In text order, without plurals that stand-ins refer to and stand-ins without a noun before them.
+    Plurals that stand-ins refer to and stand-ins without a noun before them are left out.
     """
     counts = [_count(text, thing) if kind == "plural" else 1 for thing, kind in zip(things, kinds, strict=True)]
     things, again = _merge_repeated(text, things, kinds)

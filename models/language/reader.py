@@ -28,25 +28,16 @@ _LOOSE_END = re.compile(r"(?<=\w)\s+(?:of|with|along|down|up|by|in|on|at|and|to)
 
 
 class ReaderConfig(BaseModel):
-    """Shape of the reader.
-
-    Attributes:
-        text_encoder: a BERT-like language model.
-        frozen_layers: first layers of the text encoder.
-        tuned_layers: layers after those, which are fine-tuned.
-        width: of the layers above them.
-        local_layers: convolutions over neighbouring tokens.
-        dropout: while training, in the convolutions.
-    """
+    """Shape of the reader."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    text_encoder: str = DEFAULT_TEXT_ENCODER
-    frozen_layers: int = 3
-    tuned_layers: int = 2
-    width: int = 192
-    local_layers: int = 2
-    dropout: float = 0.1
+    text_encoder: str = DEFAULT_TEXT_ENCODER  # a BERT-like language model
+    frozen_layers: int = 3  # first layers of the text encoder
+    tuned_layers: int = 2  # layers after those, which are fine-tuned
+    width: int = 192  # of the layers above them
+    local_layers: int = 2  # convolutions over neighbouring tokens
+    dropout: float = 0.1  # while training, in the convolutions
 
 
 class Reader(TextEncoderModel):

@@ -9,12 +9,7 @@ SENTENCES_PER_BATCH = 256
 
 
 class RecentFeatures:
-    """A cache of features by sentence or phrase; the least recently used are dropped.
-
-    Args:
-        read: returns features [S, D] of S sentences.
-        size: number of sentences to keep.
-    """
+    """A cache of the features [D] of `size` sentences or phrases; the least recently used are dropped."""
 
     def __init__(self, read: Callable[[Sequence[str]], Tensor], size: int) -> None:
         self._read, self._size = read, size

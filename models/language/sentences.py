@@ -14,10 +14,7 @@ _SENTENCE_ENDS = (".", "!", "?", ";", ":")
 
 
 def split_hints(description: str) -> tuple[str, ...]:
-    """Return the sentences of a description, or the lines of a list, one hint each.
-
-    Args:
-        description: any text; sentences end at . ! ? ; or a line break.
+    """Return the sentences of a description (ending at . ! ? ; or a line break), or the lines of a list, one hint each.
 
     Raises:
         DescriptionError: it has no letter or digit besides list numbers.
@@ -34,10 +31,7 @@ def split_hints(description: str) -> tuple[str, ...]:
 def locate_spans(description: str, text: str, spans: Sequence[tuple[int, int]]) -> list[tuple[int, int] | None]:
     """Locate spans of the reader's text in the original description; None for a span that is not there.
 
-    Args:
-        description: any text.
-        text: its `split_for_reader`, joined by blanks; differs in punctuation and blanks only.
-        spans: characters start..end of `text`.
+    `text` is `split_for_reader` of the description, joined by blanks; it differs in punctuation and blanks only.
     """
     located: list[tuple[int, int] | None] = [None] * len(spans)
     drift, last, last_begin = 0, -1, -1
@@ -52,12 +46,7 @@ def locate_spans(description: str, text: str, spans: Sequence[tuple[int, int]]) 
 
 
 def split_for_reader(description: str, longest: int) -> list[str]:
-    """Return a description as texts for the reader: lines become sentences, and long texts are cut between sentences.
-
-    Args:
-        description: any text.
-        longest: maximum characters of a text; a longer sentence stays whole.
-    """
+    """Return a description as texts for the reader: lines become sentences, long texts are cut between them."""
     lines = (line.strip(" \t;,") for line in _BULLET.sub("", description).splitlines())
     ended = (line if line.endswith(_SENTENCE_ENDS) else line + "." for line in lines if _HAS_WORD.search(line))
     whole = _SEMICOLON.sub(".", " ".join(ended))

@@ -17,8 +17,7 @@ class Spelling:
 
     Args:
         known: words and phrases in lower case; corrections are their words.
-        pieces: the tokenizer's pieces of a word. A word of one piece is left alone, and so is a compound of two longer
-            words ("sidewall").
+        pieces: the tokenizer's pieces of a word. A word of one piece is left alone, like a compound ("sidewall").
         is_word: whether a piece is a word by itself.
     """
 

@@ -29,17 +29,11 @@ COMMON_WORDS = 12_000  # first entries of the vocabulary that count as everyday 
 
 @dataclass(frozen=True, slots=True)
 class TokenFeatures:
-    """Features of S sentences.
+    """Features of S sentences."""
 
-    Attributes:
-        values: [S, T, W] float32, zero where there is no token.
-        mask: [S, T] bool, True where a token is real.
-        ids: [S, T] int64, number of each token in the tokenizer's vocabulary.
-    """
-
-    values: Tensor
-    mask: Tensor
-    ids: Tensor
+    values: Tensor  # [S, T, W] float32, zero where there is no token
+    mask: Tensor  # [S, T] bool, True where a token is real
+    ids: Tensor  # [S, T] int64, number of each token in the tokenizer's vocabulary
 
     def to(self, device: torch.device) -> "TokenFeatures":
         """Return the features on a device."""
@@ -86,15 +80,7 @@ class TextEncoder(nn.Module):
         return torch.tensor([each.ids for each in encoded], device=device), mask, encoded
 
     def read(self, texts: Sequence[str], depth: int) -> tuple[TokenFeatures, Tensor]:
-        """Return features of whole descriptions after the first layers.
-
-        Args:
-            texts: descriptions.
-            depth: number of layers.
-
-        Returns:
-            Token features, and the characters of each token, [S, T, 2] int64.
-        """
+        """Return features after the first `depth` layers, and the characters of each token [S, T, 2] int64."""
         device = next(self.model.parameters()).device
         key = device, depth, tuple(texts)
         if key in self._last_read:
@@ -204,9 +190,7 @@ def run_layers(layers: nn.ModuleList, hidden: Tensor, mask: Tensor) -> Tensor:
 def load_text_encoder(source: str = DEFAULT_TEXT_ENCODER) -> TextEncoder:
     """Load a frozen text encoder, once per process.
 
-    Args:
-        source: "minilm" for the weights in the installed package (no network); else a local directory
-            or a hub id of a BERT-like or T5 model.
+    "minilm" is in the installed package (no network); else a directory or hub id of a BERT-like or T5 model.
 
     Raises:
         WeightsError: the model cannot be loaded, or the MiniLM weights have another checksum.

@@ -41,35 +41,20 @@ INSTANCES_PER_POINT_BATCH = 512  # approximate batch size of the point encoder
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CellFeatures:
-    """The instances of all cells of a gallery as numbers, the input of an encoder; one row per instance and cell.
+    """The instances of all cells of a gallery as numbers, the input of an encoder; one row per instance and cell."""
 
-    Attributes:
-        starts: [N + 1] int64, cell n has the rows starts[n] to starts[n + 1].
-        geometry: [R, 16] float32, see GEOMETRY_WIDTHS.
-        label: [R] int32, index into `labels`.
-        labels: L class names.
-        sample: returns points of the instances; None if they are not available.
-        point_features: [R, S] output of a point encoder, see `with_point_features`; S = 0 without one.
-    """
-
-    starts: npt.NDArray[Any]
-    geometry: npt.NDArray[Any]
-    label: npt.NDArray[Any]
-    labels: tuple[str, ...]
-    sample: Sampler | None
-    point_features: npt.NDArray[Any]
+    starts: npt.NDArray[Any]  # [N + 1] int64, cell n has the rows starts[n] to starts[n + 1]
+    geometry: npt.NDArray[Any]  # [R, 16] float32, see GEOMETRY_WIDTHS
+    label: npt.NDArray[Any]  # [R] int32, index into `labels`
+    labels: tuple[str, ...]  # L class names
+    sample: Sampler | None  # returns points of the instances; None if they are not available
+    point_features: npt.NDArray[Any]  # [R, S] output of a point encoder, see `with_point_features`; S = 0 without one
 
     @classmethod
     def from_cells(
         cls, cells: CellTable, instance_labels: npt.NDArray[Any], rows: range | None = None
     ) -> "CellFeatures":
-        """Return the features of a cell table.
-
-        Args:
-            cells: the gallery.
-            instance_labels: [I] label of each instance of the map.
-            rows: a span of cells, with the labels of all; None for all cells.
-        """
+        """Return the features of a cell table, or of a span of its rows with the labels of all."""
         return next(cls.iterate_spans(cells, instance_labels, [range(len(cells)) if rows is None else rows]))
 
     @classmethod
@@ -152,11 +137,7 @@ class CellFeatures:
         return digest.hexdigest()
 
     def points(self, cells: Ints) -> Tensor:
-        """Return points [R, 256, 6] of the instances of some cells.
-
-        Raises:
-            WeightsError: the points are not available.
-        """
+        """Return points [R, 256, 6] of the instances of some cells; raise WeightsError if they are not available."""
         if self.sample is None:
             raise WeightsError(
                 "these weights need the points of the instances (model.inputs), which an index does not store; "
@@ -185,19 +166,12 @@ class CellFeatures:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CellBatch:
-    """Cells as padded tensors.
+    """Cells as padded tensors."""
 
-    Attributes:
-        geometry: [B, I, 16] float32.
-        label: [B, I] int64.
-        mask: [B, I] bool, True where an instance is real.
-        point_features: [B, I, S] float32, S = 0 without a point encoder.
-    """
-
-    geometry: Tensor
-    label: Tensor
-    mask: Tensor
-    point_features: Tensor
+    geometry: Tensor  # [B, I, 16] float32
+    label: Tensor  # [B, I] int64
+    mask: Tensor  # [B, I] bool, True where an instance is real
+    point_features: Tensor  # [B, I, S] float32, S = 0 without a point encoder
 
     def to(self, device: torch.device) -> "CellBatch":
         """Return a copy on a device."""
@@ -211,17 +185,12 @@ def geometry_columns(inputs: Sequence[Input]) -> list[int]:
 
 
 class InstanceEncoder(nn.Module):
-    """The instance features F^C, from several inputs with an MLP each (MNCL's point backbone).
+    """The instance features F^C [R, D], from several inputs with an MLP each (MNCL's point backbone).
 
     The paper's inputs are PAPER_INPUTS: points through PointNet++, mean colour, centre, number of points. The default
     leaves the points out and adds the size, the label as a text embedding, so that any word can be a label, and the
     point closest to the cell's centre, because hints refer to closest points. Differs: the number of points enters as
     its logarithm, and a column says whether the colour is known.
-
-    Args:
-        label_width: W, of the text embeddings.
-        width: D, of the features.
-        inputs: which inputs to use.
     """
 
     def __init__(self, label_width: int, width: int, inputs: Sequence[Input] = DEFAULT_INPUTS) -> None:
@@ -245,13 +214,7 @@ class InstanceEncoder(nn.Module):
         return features
 
     def forward(self, geometry: Tensor, label_embedding: Tensor, point_features: Tensor | None = None) -> Tensor:
-        """Return features [R, D].
-
-        Args:
-            geometry: [R, 16], see GEOMETRY_WIDTHS.
-            label_embedding: [R, W] text embedding of the label of each instance.
-            point_features: [R, S] of the point encoder.
-        """
+        """Return features [R, D] from geometry [R, 16], label vectors [R, W] and point features [R, S]."""
         parts = [branch(geometry[:, self.columns[name]]) for name, branch in self.branches.items()]
         if self.label is not None:
             parts.append(self.label(label_embedding))

@@ -7,27 +7,14 @@ from torch import Tensor, nn
 
 
 def masked_max(x: Tensor, mask: Tensor) -> Tensor:
-    """Return the maximum over the second to last axis, of real entries only.
-
-    Args:
-        x: [..., K, D].
-        mask: [..., K] bool, True where an entry is real; at least one in each row.
-
-    Returns:
-        [..., D].
-    """
+    """Return the maximum [..., D] of x [..., K, D] over the real entries, at least one of mask [..., K]."""
     return x.masked_fill(~mask[..., None], float("-inf")).amax(dim=-2)
 
 
 def group_by_size(mask: Tensor, size: int = 8) -> list[tuple[Tensor, int]]:
-    """Group the rows of a padded batch by their number of real entries, to compute little for padding.
+    """Group the rows of a mask [B, K] by their number of real entries, to compute little for padding.
 
-    Args:
-        mask: [B, K] bool, True where an entry is real.
-        size: rows per group.
-
-    Returns:
-        For each group its rows [up to `size`], and the length that contains all their real entries.
+    Returns the rows [up to `size`] of each group, and the length that contains all their real entries.
     """
     length = (mask * torch.arange(1, mask.shape[1] + 1, device=mask.device)).amax(dim=1)
     order = length.argsort(stable=True)
@@ -63,8 +50,7 @@ class SetTransformer(nn.Module):
 class HintEncoder(nn.Module):
     """The hint features F^T from token features (MNCL, text backbone).
 
-    Differs: the tokens are projected to D before the transformer layer, which takes a third of the time at the same
-    recall.
+    Differs: tokens are projected to D before the transformer layer; a third of the time at the same recall.
     """
 
     def __init__(self, text_width: int, width: int, dropout: float) -> None:

@@ -23,14 +23,10 @@ Float32s = npt.NDArray[np.float32]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LevelTable:
-    """The unit vectors of all instances of all cells, by level.
+    """The unit vectors of all instances of all cells, by level."""
 
-    Attributes:
-        starts: [N + 1] cell n has the rows starts[n] to starts[n + 1]; no cell is empty.
-        vectors: [R, D] by level, without the global one; float32 when computed, float16 when loaded.
-    """
-
-    starts: Ints
+    starts: Ints  # [N + 1] cell n has the rows starts[n] to starts[n + 1]; no cell is empty
+    # [R, D] by level, without the global one; float32 when computed, float16 when loaded
     vectors: dict[Level, npt.NDArray[np.floating[Any]]]
 
     @property
@@ -64,15 +60,7 @@ class LevelTable:
         return sum(2 * table.size for table in self.vectors.values()) / max(1, len(self.starts) - 1)
 
     def scores(self, texts: Sequence[Levels], cells: Ints) -> dict[Level, Float32s]:
-        """Return the similarities of descriptions with some cells at each level (`models.paper.levels.set_similarity`).
-
-        Args:
-            texts: Q descriptions, each with B = 1.
-            cells: [C] rows.
-
-        Returns:
-            [Q, C] by level.
-        """
+        """Return the similarities [Q, C] of descriptions (each B = 1) with cells [C] by level."""
         begin, end = self.starts[cells], self.starts[cells + 1]
         rows = ranges(begin, end)
         segments = np.concatenate([[0], np.cumsum(end - begin)[:-1]])
@@ -96,11 +84,7 @@ class LevelTable:
 
     @classmethod
     def load(cls, directory: Path, levels: Sequence[Level]) -> "LevelTable":
-        """Map the files of `save` into memory.
-
-        Raises:
-            IndexBroken: a level is missing, or the files do not match.
-        """
+        """Map the files of `save` into memory; raise IndexBroken if a level is missing or the files do not match."""
         names: list[Level] = [level for level in levels if level != "global"]
         advice = "rebuild it with 'hereabouts index'"
         try:
@@ -119,15 +103,9 @@ EMPTY_LEVEL_TABLE = LevelTable(np.zeros(1, np.int64), {})
 def encode_gallery(
     retriever: Retriever, cells: CellFeatures, map_blocks: Callable[..., Iterable[Any]] = map
 ) -> tuple[Vectors, LevelTable]:
-    """Encode a gallery at all levels of a retriever.
+    """Return the vectors [N, D] of the global level, and the table of the other levels.
 
-    Args:
-        retriever: the model.
-        cells: of `Retriever.with_point_features`.
-        map_blocks: `map`, or a function that distributes the blocks over processes (`map_forked`).
-
-    Returns:
-        Unit vectors [N, D] float32 of the global level, and the table of the other levels.
+    `cells` are of `Retriever.with_point_features`; `map_blocks` is `map` or `map_forked`.
     """
     width = retriever.config.width
     names: list[Level] = [level for level in retriever.levels if level != "global"]

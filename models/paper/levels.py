@@ -12,26 +12,15 @@ Level = Literal["global", "instance", "relation"]
 
 @dataclass(frozen=True, slots=True)
 class Levels:
-    """Unit vectors of B descriptions with K hints each, or of B cells with K instances each.
+    """Unit vectors of B descriptions with K hints each, or of B cells with K instances each."""
 
-    Attributes:
-        global_vectors: [B, D] the global level.
-        mask: [B, K] bool, True where a hint or an instance is real.
-        instance: [B, K, D] the instance level; None if the retriever has none.
-        relation: [B, K, D] the relation level; None if the retriever has none.
-    """
-
-    global_vectors: Tensor
-    mask: Tensor
-    instance: Tensor | None = None
-    relation: Tensor | None = None
+    global_vectors: Tensor  # [B, D] the global level
+    mask: Tensor  # [B, K] bool, True where a hint or an instance is real
+    instance: Tensor | None = None  # [B, K, D] the instance level; None if the retriever has none
+    relation: Tensor | None = None  # [B, K, D] the relation level; None if the retriever has none
 
     def vectors(self, level: Level) -> Tensor:
-        """Return the vectors of a level: [B, D] of the global level, [B, K, D] of the others.
-
-        Raises:
-            ValueError: the retriever has no such level.
-        """
+        """Return the vectors of a level, [B, D] or [B, K, D]; raise ValueError if the retriever does not have it."""
         vectors = {"global": self.global_vectors, "instance": self.instance, "relation": self.relation}[level]
         if vectors is None:
             raise ValueError(f"the retriever has no level '{level}'")
@@ -57,11 +46,7 @@ class Levels:
 def set_similarity(hints: Tensor, hint_mask: Tensor, instances: Tensor, instance_mask: Tensor) -> Tensor:
     """Return the mean over hints of the maximum over instances of the cosine, [Q, N] (MNCL, equations 6 and 12).
 
-    Args:
-        hints: [Q, H, D] unit vectors.
-        hint_mask: [Q, H] bool, True where a hint is real.
-        instances: [N, I, D] unit vectors.
-        instance_mask: [N, I] bool, True where an instance is real.
+    Hints [Q, H, D] and instances [N, I, D] are unit vectors; masks [Q, H] and [N, I] are True where they are real.
     """
     q, h, d = hints.shape
     n, i, _ = instances.shape

@@ -8,15 +8,10 @@ MASKED_LOGIT = -1e9  # finite, because inf - inf would give NaN gradients
 
 
 def contrastive_loss(scores: Tensor, same_cell: Tensor, temperature: float) -> Tensor:
-    """Return InfoNCE in both directions; the ablation a = 0 of MNCL's negative contrastive loss.
+    """Return InfoNCE, the mean of both directions; the ablation a = 0 of MNCL's negative contrastive loss.
 
-    Args:
-        scores: [B, B] similarity of description i with cell j; the true pairs are on the diagonal.
-        same_cell: [B, B] bool, True where two rows belong to one cell; such pairs are no negatives.
-        temperature: tau.
-
-    Returns:
-        Scalar, mean over both directions.
+    scores [B, B] is the similarity of description i with cell j; true pairs are on the diagonal. same_cell [B, B] is
+    True where two rows belong to one cell; such pairs are not negatives. The temperature is tau.
     """
     logits = _mask_same_cell(scores / temperature, same_cell)
     target = torch.arange(len(scores), device=scores.device)
@@ -37,20 +32,10 @@ def negative_contrastive_loss(
 
     p is the softmax over a row of scores / tau, q over a column;
     L = mean over i of the sum over j != i of w_ij * (-log(1 - p_ij)), and the same with q. Differs from the paper, as
-    its code does: two logarithms, because the sum of two softmaxes in one can exceed 1. Differs from both: no eps in
-    the logarithm, which cuts off the gradient at p near 1, and pairs of one cell are no negatives.
+    its code does: two logarithms, because p + q in one logarithm can exceed 1. Differs from both: no eps in the
+    logarithm, which cuts off the gradient at p near 1, and pairs of one cell are not negatives.
 
-    Args:
-        scores: [B, B] similarity of description i with cell j; the true pairs are on the diagonal.
-        texts: [B, D] mean vector of each description at this level.
-        cells: [B, D] mean vector of each cell at this level.
-        same_cell: [B, B] bool, True where two rows belong to one cell.
-        temperature: tau.
-        exponent: a of `negative_weights`, above 0.
-        least_weight: of `negative_weights`.
-
-    Returns:
-        Scalar.
+    Arguments as of `contrastive_loss` and `negative_weights`; the exponent is above 0.
     """
     logits = _mask_same_cell(scores / temperature, same_cell)
     weights = negative_weights(texts, cells, exponent, least_weight).masked_fill(same_cell, 0.0)  # the diagonal too
@@ -71,10 +56,10 @@ def log_complement(logits: Tensor, dim: int) -> Tensor:
 
 
 def negative_weights(texts: Tensor, cells: Tensor, exponent: float, least: float) -> Tensor:
-    """Return w_ij = (1 - d_ij)^(1/a), at least `least`, [B, B]; d is the distance divided by its batch maximum.
+    """Return w_ij = (1 - d_ij)^(1/a), at least `least`, [B, B], for the mean vectors [B, D] of texts and cells.
 
-    The distance is between unit mean vectors. The paper has no least weight, its code has 0.8. The weights have no
-    gradient.
+    d is the distance of the unit vectors divided by its batch maximum. The paper has no least weight, its code has 0.8.
+    The weights have no gradient.
     """
     unit = torch.nn.functional.normalize
     with torch.no_grad():

@@ -17,33 +17,22 @@ from models.paper.scene_graph import Aggregate, AttentionAxis, AttentionQuery, C
 
 
 class MnclConfig(RetrieverConfig):
-    """Architecture and loss of MNCL, with an option for each row of tables 3 and 4 and for both curves of figure 4.
+    """Architecture and loss of MNCL, with an option for each row of tables 3 and 4 and for both curves of figure 4."""
 
-    Attributes:
-        levels: the levels to compare; always includes "global".
-        cell_layers: attention layers over the instances of a cell.
-        hint_layers: attention layers over the hints of a description.
-        dropout: of the attention layers in training.
-        loss: "contrastive" is the vanilla loss (InfoNCE), "negative" the paper's.
-        loss_temperature: tau.
-        exponent: a of the weights of the negative loss; 0 selects the vanilla loss (figure 4).
-        least_weight: minimum of these weights: 0.8 in the released code, 0 in the paper.
-        graph_layers: m of the scene graph (figure 4).
-        aggregate: "gcn" (the paper) adds the mean of its edges to each node, "code" (the released code) does not.
-        attention_query, attention_axis: see `ExternalSpaceAttention`.
-    """
-
-    levels: tuple[Level, ...] = ("global", "instance", "relation")
-    cell_layers: int = 2
-    hint_layers: int = 1
-    dropout: float = 0.1
+    levels: tuple[Level, ...] = ("global", "instance", "relation")  # the levels to compare; always includes "global"
+    cell_layers: int = 2  # attention layers over the instances of a cell
+    hint_layers: int = 1  # attention layers over the hints of a description
+    dropout: float = 0.1  # of the attention layers in training
+    # "contrastive" is the vanilla loss (InfoNCE), "negative" the paper's
     loss: Literal["contrastive", "negative"] = "negative"
-    loss_temperature: float = 0.05
-    exponent: float = 2.0
+    loss_temperature: float = 0.05  # tau
+    exponent: float = 2.0  # a of the weights of the negative loss; 0 selects the vanilla loss (figure 4)
+    # minimum of these weights: 0.8 in the released code, 0 in the paper
     least_weight: float = Field(default=0.8, ge=0, le=1)
-    graph_layers: int = 3
+    graph_layers: int = 3  # m of the scene graph (figure 4)
+    # "gcn" (the paper) adds the mean of its edges to each node, "code" (the released code) does not
     aggregate: Aggregate = "code"
-    attention_query: AttentionQuery = "edges"
+    attention_query: AttentionQuery = "edges"  # see `ExternalSpaceAttention`
     attention_axis: AttentionAxis = "edges"
 
 

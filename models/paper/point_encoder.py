@@ -13,12 +13,7 @@ _LAST: Final = (128, POINT_WIDTH)
 
 
 def farthest_points(xyz: Tensor, count: int) -> Tensor:
-    """Return rows [R, count] of points by farthest point sampling, starting with the first point.
-
-    Args:
-        xyz: [R, P, 3].
-        count: at most P.
-    """
+    """Return rows [R, count] of points [R, P, 3] by farthest point sampling, starting with the first point."""
     chosen = torch.zeros(len(xyz), count, dtype=torch.long, device=xyz.device)
     distance = torch.full(xyz.shape[:2], float("inf"), device=xyz.device)
     row = torch.arange(len(xyz), device=xyz.device)
@@ -29,13 +24,9 @@ def farthest_points(xyz: Tensor, count: int) -> Tensor:
 
 
 def nearest_in_ball(xyz: Tensor, centers: Tensor, radius: float, count: int) -> Tensor:
-    """Return the points [R, M, count] nearest to each centre; the nearest one replaces those outside the radius.
+    """Return the points [R, M, count] of xyz [R, P, 3] nearest to each centre [R, M, 3].
 
-    Args:
-        xyz: [R, P, 3].
-        centers: [R, M, 3].
-        radius: in the unit of `xyz`.
-        count: at most P.
+    The nearest one replaces those outside the radius.
     """
     distance, near = torch.cdist(centers, xyz).topk(count, dim=-1, largest=False)
     return torch.where(distance <= radius, near, near[..., :1])

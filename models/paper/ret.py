@@ -15,19 +15,12 @@ NUM_HEADS = 4
 
 
 class RetConfig(RetrieverConfig):
-    """Architecture and loss of RET.
+    """Architecture and loss of RET."""
 
-    Attributes:
-        cell_layers: relation-enhanced layers over the instances of a cell.
-        hint_layers: relation-enhanced layers over the hints of a description.
-        dropout: of these layers in training.
-        margin: of the ranking loss.
-    """
-
-    cell_layers: int = 2
-    hint_layers: int = 2
-    dropout: float = 0.1
-    margin: float = 0.35
+    cell_layers: int = 2  # relation-enhanced layers over the instances of a cell
+    hint_layers: int = 2  # relation-enhanced layers over the hints of a description
+    dropout: float = 0.1  # of these layers in training
+    margin: float = 0.35  # of the ranking loss
 
 
 class InstanceRelation(nn.Module):
@@ -70,16 +63,7 @@ class RelationLayer(nn.Module):
         self.dropout = nn.Dropout(dropout)
 
     def forward(self, x: Tensor, relation: Tensor, mask: Tensor) -> Tensor:
-        """Apply the layer.
-
-        Args:
-            x: [B, K, D].
-            relation: [B, K, D] pooled relations of each entry.
-            mask: [B, K] bool, True where an entry is real.
-
-        Returns:
-            [B, K, D], undefined at padding.
-        """
+        """Apply the layer to x and pooled relations, both [B, K, D]; the result is undefined at padding."""
         x = self.attention_norm(x + self.dropout(self.attend(x, relation, mask)))
         updated: Tensor = self.feed_forward_norm(x + self.dropout(self.feed_forward(x)))
         return updated

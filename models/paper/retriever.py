@@ -23,28 +23,20 @@ Vectors = np.ndarray[tuple[int, int], np.dtype[np.float32]]
 
 
 class RetrieverConfig(BaseModel):
-    """Configuration common to all retrievers.
-
-    Attributes:
-        text_encoder: "minilm", a directory or a hub id.
-        width: D, size of the vectors.
-        inputs: features of an instance, see `InstanceEncoder`; "points" adds a `PointEncoder`.
-        level_weights: weight of each of `Retriever.levels` in the score of a cell, fitted on validation data; if empty,
-            the z-scores of the levels over the gallery are added.
-        temperature: for a description of one hint, see `Retriever.temperature`; fitted on validation data.
-        temperature_decay: how fast the temperature falls with more hints; fitted on validation data.
-        global_temperature, global_temperature_decay: the same for a ranking by the global level alone; None if it is
-            the only level.
-    """
+    """Configuration common to all retrievers."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    text_encoder: str = DEFAULT_TEXT_ENCODER
-    width: int = 256
+    text_encoder: str = DEFAULT_TEXT_ENCODER  # "minilm", a directory or a hub id
+    width: int = 256  # D, size of the vectors
+    # features of an instance, see `InstanceEncoder`; "points" adds a `PointEncoder`
     inputs: tuple[Input, ...] = Field(default=DEFAULT_INPUTS, min_length=1)
+    # weight of each of `Retriever.levels` in the score of a cell, fitted on validation data; if empty, the z-scores of
+    # the levels over the gallery are added
     level_weights: tuple[float, ...] = ()
-    temperature: float = 0.2
-    temperature_decay: float = 1.0
+    temperature: float = 0.2  # for a description of one hint, see `Retriever.temperature`; fitted on validation data
+    temperature_decay: float = 1.0  # how fast the temperature falls with more hints; fitted on validation data
+    # the same for a ranking by the global level alone; None if it is the only level
     global_temperature: float | None = None
     global_temperature_decay: float | None = None
 
@@ -75,41 +67,22 @@ class Retriever(TextEncoderModel):
         raise NotImplementedError
 
     def embed_texts(self, hints: Tensor, mask: Tensor) -> Levels:
-        """Return the vectors of descriptions from features of their hints.
-
-        Args:
-            hints: [B, H, D] of `embed_hints`.
-            mask: [B, H] bool, True where a hint is real.
-        """
+        """Return the vectors of descriptions from hints [B, H, D] of `embed_hints` with their mask [B, H]."""
         raise NotImplementedError
 
     def embed_cells(self, batch: CellBatch, label_embeddings: Tensor) -> Levels:
-        """Return the vectors of cells from their instances.
-
-        Args:
-            batch: padded cells.
-            label_embeddings: [L, W] text embedding of each label.
-        """
+        """Return the vectors of padded cells; label_embeddings [L, W] has the text embedding of each label."""
         raise NotImplementedError
 
     def loss(self, text: Levels, cells: Levels, same_cell: Tensor) -> Tensor:
-        """Return the training loss, a scalar.
-
-        Args:
-            text: B descriptions.
-            cells: the cell of each.
-            same_cell: [B, B] bool, True where two rows belong to one cell; such pairs are not negatives.
-        """
+        """Return the loss of B descriptions with their cells; pairs with same_cell [B, B] are not negatives."""
         raise NotImplementedError
 
     def combine(self, scores: Mapping[Level, Vectors]) -> Vectors:
-        """Combine the similarities of the levels into one score per cell [Q, C].
+        """Combine similarities [Q, C] by level into one score per cell.
 
         With `level_weights`, the score of a cell does not depend on the other cells, as an index needs; without, the
         z-scores of the levels over the cells are added (MNCL's code).
-
-        Args:
-            scores: [Q, C] by level.
         """
         if self.levels == ("global",):
             return scores["global"]
@@ -123,12 +96,8 @@ class Retriever(TextEncoderModel):
     def temperature(self, num_hints: int, global_only: bool = False) -> float:
         """Return the T for which softmax(score / T) over a gallery is the probability of each cell.
 
-        Similarities are cosines, whatever the length of the text. The same difference means more with more hints:
-        T = temperature * num_hints ** -temperature_decay.
-
-        Args:
-            num_hints: of the description.
-            global_only: whether cells are ranked by the global level, although the retriever has others.
+        The same difference of cosines means more with more hints: T = temperature * num_hints ** -temperature_decay.
+        `global_only`: cells are ranked by the global level, although the retriever has others.
         """
         config = self.config
         one_hint, decay = config.temperature, config.temperature_decay
@@ -142,7 +111,7 @@ class Retriever(TextEncoderModel):
         return super().train(mode)
 
     def with_point_features(self, cells: CellFeatures) -> CellFeatures:
-        """Return cells with the features of the model's point encoder, or unchanged if it has none.
+        """Return cells with the features of the point encoder, or unchanged if the model has none.
 
         Raises:
             WeightsError: the model has a point encoder, but the points are not available.
@@ -179,15 +148,10 @@ class Retriever(TextEncoderModel):
     def encode_cells(
         self, cells: CellFeatures, label_embeddings: Tensor, first: int
     ) -> Iterator[tuple[npt.NDArray[np.intp], Levels]]:
-        """Encode a block of a gallery at all levels; yield the rows and the result of each batch.
+        """Encode a block of a gallery from `with_point_features`; yield the rows and levels of each batch.
 
         Batches have cells of similar size and never span two blocks, so that shards that end at blocks give the same
-        bits as the whole gallery.
-
-        Args:
-            cells: the gallery, from `with_point_features`.
-            label_embeddings: [L, W] text embedding of each label.
-            first: row of the first cell of the block.
+        bits as the whole gallery. `first` is the row of the first cell of the block.
         """
         sizes = np.diff(cells.starts[first : first + CELLS_PER_BLOCK + 1])
         order = first + np.argsort(sizes, kind="stable")

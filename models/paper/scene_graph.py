@@ -11,15 +11,10 @@ Aggregate = Literal["code", "gcn"]
 
 
 class EdgeTerms(NamedTuple):
-    """The edges E_ij = first_i + second_j before the first graph layer, as 2 K vectors instead of K x K.
+    """The edges E_ij = first_i + second_j before the first graph layer, as 2 K vectors instead of K x K."""
 
-    Attributes:
-        first: [B, K, D] terms of the first node of an edge.
-        second: [B, K, D] terms of the second node.
-    """
-
-    first: Tensor
-    second: Tensor
+    first: Tensor  # [B, K, D] terms of the first node of an edge
+    second: Tensor  # [B, K, D] terms of the second node
 
     def edges(self) -> Tensor:
         """Return the edges [B, K, K, D]."""
@@ -60,8 +55,8 @@ class ExternalSpaceAttention(nn.Module):
     Args:
         width: D.
         query: "edges" leaves W out (a = 1, b = 0), as the released code does; "mixed" learns it.
-        axis: of the softmax: "edges" normalizes over the edges, for each channel; "channels" over the channels, for
-            each edge, as the paper ("second dimension") and its code do.
+        axis: the softmax runs over the "edges" for each channel, or over the "channels" for each edge, as in the paper
+            ("second dimension") and its code.
     """
 
     def __init__(self, width: int, query: AttentionQuery, axis: AttentionAxis) -> None:
@@ -109,16 +104,7 @@ class SceneGraph(nn.Module):
         self.attention = ExternalSpaceAttention(width, query, axis)
 
     def forward(self, nodes: Tensor, terms: EdgeTerms, mask: Tensor) -> tuple[Tensor, Tensor]:
-        """Run the graph.
-
-        Args:
-            nodes: [B, K, D].
-            terms: of the edges; edge ij leads from node i to node j.
-            mask: [B, K] bool, True where a node is real.
-
-        Returns:
-            Node states and relation features, both [B, K, D], undefined at padding.
-        """
+        """Return node states and relation features of nodes [B, K, D], both [B, K, D] and undefined at padding."""
         real = mask[:, None, :, None]  # by the second node of an edge
         edges = terms.edges() if self.aggregate == "gcn" or not self.num_layers else None
         for layer in range(self.num_layers):

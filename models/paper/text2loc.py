@@ -15,19 +15,12 @@ NUM_HEADS = 4
 
 
 class Text2LocConfig(RetrieverConfig):
-    """Architecture and loss of Text2Loc.
+    """Architecture and loss of Text2Loc."""
 
-    Attributes:
-        cell_layers: attention layers over the instances of a cell.
-        hint_layers: attention layers over the hints of a description, each with a residual connection.
-        dropout: of the attention layers in training.
-        loss_temperature: tau.
-    """
-
-    cell_layers: int = 2
-    hint_layers: int = 1
-    dropout: float = 0.1
-    loss_temperature: float = 0.1
+    cell_layers: int = 2  # attention layers over the instances of a cell
+    hint_layers: int = 1  # attention layers over the hints of a description, each with a residual connection
+    dropout: float = 0.1  # of the attention layers in training
+    loss_temperature: float = 0.1  # tau
 
 
 class Text2Loc(Retriever):

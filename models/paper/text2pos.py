@@ -15,15 +15,10 @@ from models.paper.retriever import Retriever, RetrieverConfig
 
 
 class Text2PosConfig(RetrieverConfig):
-    """Architecture and loss of Text2Pos.
+    """Architecture and loss of Text2Pos."""
 
-    Attributes:
-        neighbours: k of the edge convolution, including the instance itself.
-        margin: of the ranking loss.
-    """
-
-    neighbours: int = Field(default=8, ge=1)
-    margin: float = 0.35
+    neighbours: int = Field(default=8, ge=1)  # k of the edge convolution, including the instance itself
+    margin: float = 0.35  # of the ranking loss
 
 
 class WordEncoder(nn.Module):
@@ -125,15 +120,7 @@ def pairwise_ranking_loss(scores: Tensor, same_cell: Tensor, margin: float) -> T
     """Return the pairwise ranking loss in both directions (Text2Pos, and RET after it; first in Kiros et al., 2014).
 
     L = mean over i of the sum over j != i of max(0, m - s_ii + s_ij) + max(0, m - s_ii + s_ji): all other pairs of the
-    batch are negatives. Differs: pairs of one cell are not negatives.
-
-    Args:
-        scores: [B, B] similarity of description i with cell j; the true pairs are on the diagonal.
-        same_cell: [B, B] bool, True where two rows belong to one cell, including the diagonal.
-        margin: m.
-
-    Returns:
-        Scalar.
+    batch are negatives. Differs: pairs of one cell are not negatives. Arguments as of `contrastive_loss`; margin m.
     """
     true_pairs = scores.diagonal()
     other_cells = (margin - true_pairs[:, None] + scores).clamp(min=0)

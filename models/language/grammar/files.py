@@ -17,15 +17,9 @@ Grammar = Literal["train", "val", "test"]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Tables:
-    """The tables of a grammar; `models.language.grammar.wording` describes them.
+    """The tables of a grammar; `models.language.grammar.wording` describes them."""
 
-    Attributes:
-        labels, colours: further names of classes and colours.
-        compass: words for each compass direction.
-        phrases: by kind.
-    """
-
-    labels: Names
+    labels: Names  # further names of classes and colours
     colours: Names
     compass: Names
     phrases: Mapping[str, Sequence[str]]

@@ -13,23 +13,14 @@ def opposite(wind: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Fact:
-    """A fact to express.
+    """A fact to express."""
 
-    Attributes:
-        label: class of the thing, a key of the grammar's labels or any words.
-        relation: one of RELATIONS.
-        colour: a word; None to leave it out.
-        distance_m: distance to state; None to leave it out.
-        absent: whether there is no such thing.
-        name: proper name of the thing, used instead of label and colour.
-    """
-
-    label: str
-    relation: str = "near"
-    colour: str | None = None
-    distance_m: float | None = None
-    absent: bool = False
-    name: str | None = None
+    label: str  # class of the thing, a key of the grammar's labels or any words
+    relation: str = "near"  # one of RELATIONS
+    colour: str | None = None  # a word; None to leave it out
+    distance_m: float | None = None  # distance to state; None to leave it out
+    absent: bool = False  # whether there is no such thing
+    name: str | None = None  # proper name of the thing, used instead of label and colour
 
     @property
     def is_simple(self) -> bool:
@@ -39,35 +30,23 @@ class Fact:
 
 @dataclass(frozen=True, slots=True)
 class LabelledMention:
-    """The place where a text names one or several things.
+    """The place where a text names one or several things."""
 
-    Attributes:
-        facts: indices of its facts; none for a plural that stand-ins refer to.
-        start, end: the characters of the noun, without article and colour.
-        noun: its words before typos.
-        kind: a noun, a plural that names several things, or words that stand for one of those ("the other").
-        coloured: whether the text states its colour.
-    """
-
-    facts: tuple[int, ...]
-    start: int
+    facts: tuple[int, ...]  # indices of its facts; none for a plural that stand-ins refer to
+    start: int  # the characters of the noun, without article and colour
     end: int
-    noun: str
+    noun: str  # its words before typos
+    # a noun, a plural that names several things, or words that stand for one of those ("the other")
     kind: Literal["noun", "plural", "stand-in"] = "noun"
-    coloured: bool = False
+    coloured: bool = False  # whether the text states its colour
 
 
 @dataclass(frozen=True, slots=True)
 class LabelledText:
-    """A text with its mentions.
-
-    Attributes:
-        text: English.
-        mentions: in text order; every fact belongs to one.
-    """
+    """A text with its mentions."""
 
     text: str
-    mentions: tuple[LabelledMention, ...]
+    mentions: tuple[LabelledMention, ...]  # in text order; every fact belongs to one
 
     def followed_by(self, other: "LabelledText", between: str) -> "LabelledText":
         """Return this text followed by another."""

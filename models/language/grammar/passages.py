@@ -26,13 +26,9 @@ _HEAD_ENDS = re.compile(r" (?:of|that|where|which|with|for|on|in|to|by|from|besi
 
 @dataclass(frozen=True)
 class Passage:
-    """A phrase and its pattern.
+    """A phrase and its pattern."""
 
-    Attributes:
-        phrase: with its slots.
-    """
-
-    phrase: str
+    phrase: str  # with its slots
 
     @cached_property
     def slots(self) -> list[tuple[str, tuple[int, ...], str]]:
@@ -81,12 +77,7 @@ class Passage:
         return [numbers for kind, numbers, _ in self.slots if kind == what]
 
     def match(self, facts: Sequence[Fact], left: Sequence[int]) -> list[int] | None:
-        """Return facts that fit its things, in the order of its numbers; None if there are none.
-
-        Args:
-            facts: all facts.
-            left: indices of the facts to choose from, in order of preference.
-        """
+        """Return facts of `left`, in order of preference, that fit its things; None if there are none."""
         taken: list[int] = []
         return taken if len(left) >= self.things and self._extend(facts, left, taken) else None
 
@@ -102,12 +93,7 @@ class Passage:
         return False
 
     def suit(self, drawn: Sequence[Fact], colour: Callable[[], str]) -> list[Fact]:
-        """Facts that it can tell: group facts, changed where its pattern asks for it.
-
-        Args:
-            drawn: as many as it has things, simple, in one of the winds.
-            colour: draws a colour word.
-        """
+        """Return simple facts with compass directions, changed where its pattern requires it."""
         facts: list[Fact] = []
         for n, fact in enumerate(drawn):
             opposites = [opposite(facts[a].relation) for a, b in map(sorted, self.shared("x")) if b == n]

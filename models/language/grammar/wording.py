@@ -34,11 +34,7 @@ LONG_PASSAGE_THINGS = 4  # things of a passage that can be a whole description
 
 
 class Wording:
-    """A writer of texts with the phrases of one grammar.
-
-    Args:
-        grammar: its name; "val" shares no phrase with "train", and "test" none with either.
-    """
+    """A writer of texts with the phrases of a grammar; "train", "val" and "test" share no phrase."""
 
     def __init__(self, grammar: Grammar) -> None:
         tables = load_grammar(grammar)
@@ -51,24 +47,13 @@ class Wording:
         ]
 
     def write(self, facts: Sequence[Fact], rng: np.random.Generator, noise: bool = True) -> LabelledText:
-        """Return a description of facts in random order.
-
-        Args:
-            facts: to express.
-            rng: draws order and words.
-            noise: whether typos, lower case and missing full stops may occur.
-        """
+        """Return a description of facts in random order; noise adds typos, lower case and missing full stops."""
         order = rng.permutation(len(facts)).tolist()
         text = self._surround(self._sentences(facts, order, rng), rng)
         return spoil(text, rng) if noise else text
 
     def whole(self, facts: Sequence[Fact], rng: np.random.Generator) -> tuple[list[Fact], LabelledText]:
-        """Return a description that is one long passage, and its facts: the first given, changed to fit.
-
-        Args:
-            facts: at least six simple ones with compass directions.
-            rng: draws words.
-        """
+        """Return a description that is one long passage, and its facts: six or more simple ones, changed to fit."""
         passage = self._pick("whole", rng)
         suited = passage.suit(facts[: passage.things], lambda: _one_of(tuple(self.colours), rng))
         text = self._surround([self._fill(passage, suited, range(passage.things), rng)], rng)

@@ -14,23 +14,15 @@ Names = Mapping[str, Sequence[str]]
 
 @dataclass(frozen=True, eq=False)
 class Lexicon:
-    """The names of classes and colours.
+    """The names of classes and colours."""
 
-    Attributes:
-        labels: further names of each class: first classes of maps, then classes that no map has, whose names compete.
-        elsewhere: the classes that no map has.
-        unnamed: classes of maps that have no other names.
-        colours: further words for each colour.
-        related: groups of classes that share names, closest first.
-        sizes: words such as "small".
-    """
-
+    # further names of each class: first classes of maps, then classes that no map has, whose names compete
     labels: Names
-    elsewhere: frozenset[str]
-    unnamed: frozenset[str]
-    colours: Names
-    related: Sequence[Sequence[str]]
-    sizes: Sequence[str]
+    elsewhere: frozenset[str]  # the classes that no map has
+    unnamed: frozenset[str]  # classes of maps that have no other names
+    colours: Names  # further words for each colour
+    related: Sequence[Sequence[str]]  # groups of classes that share names, closest first
+    sizes: Sequence[str]  # words such as "small"
 
     @cached_property
     def sha256(self) -> str:

@@ -9,15 +9,10 @@ from pathlib import Path
 
 @dataclass(frozen=True, slots=True)
 class QuestionClasses:
-    """The classes and kinds of places that people recognize.
+    """The classes and kinds of places that people recognize."""
 
-    Attributes:
-        things: the noun in a question for each class of maps.
-        kinds: prefixes of the kinds of places that people know by name.
-    """
-
-    things: Mapping[str, str]
-    kinds: tuple[str, ...]
+    things: Mapping[str, str]  # the noun in a question for each class of maps
+    kinds: tuple[str, ...]  # prefixes of the kinds of places that people know by name
 
 
 @cache

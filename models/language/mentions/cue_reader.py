@@ -43,33 +43,21 @@ MentionSpan = tuple[int, int, Form]
 
 @dataclass(frozen=True, slots=True)
 class ReadCue:
-    """The predicted cue of a mention.
+    """The predicted cue of a mention."""
 
-    Attributes:
-        angle: the likeliest, degrees clockwise from the heading; None without one.
-        angles: likely angles with their probabilities; empty if only one is likely.
-        relation: the likeliest.
-        has_wind: whether it may have a compass direction.
-        is_meant: whether it says where the speaker is; not so for an order of food or a repeated mention.
-    """
-
-    angle: float | None
+    angle: float | None  # the likeliest, degrees clockwise from the heading; None without one
+    # likely angles with their probabilities; empty if only one is likely
     angles: tuple[tuple[float | None, float], ...]
     relation: Relation
-    has_wind: bool
-    is_meant: bool
+    has_wind: bool  # whether it may have a compass direction
+    is_meant: bool  # whether it says where the speaker is; not so for an order of food or a repeated mention
 
 
 class CueReader(nn.Module):
     """Predicts the fields of `ReadCue` for each mention.
 
-    It uses the frozen layers of the text encoder and the tuned layers of the hint reader with a low-rank update (LoRA:
-    Hu et al., ICLR 2022, equation 3). The tokens of each mention are marked with its form.
-
-    Args:
-        text_encoder: frozen.
-        tuned: the layers above its first `frozen_layers`, which are not saved with it.
-        frozen_layers: of the text encoder.
+    It uses the frozen layers of the text encoder and the tuned layers of the hint reader (not saved with it) with a
+    low-rank update (LoRA: Hu et al., ICLR 2022, equation 3). The tokens of each mention are marked with its form.
     """
 
     def __init__(self, text_encoder: TextEncoder, tuned: nn.ModuleList, frozen_layers: int) -> None:
@@ -92,9 +80,7 @@ class CueReader(nn.Module):
     def forward(self, tokens: TokenFeatures, spans: Sequence[Sequence[tuple[int, int, int]]]) -> tuple[Tensor, ...]:
         """Return logits of the mentions of all texts: angle [S, 11], relation [S, R], flags [S, 2].
 
-        Args:
-            tokens: of the texts, from the frozen layers.
-            spans: first token, end and row of FORMS of each mention of each text.
+        `spans` has the first token, end and row of FORMS of each mention of each text.
         """
         mark = torch.zeros(tokens.mask.shape, dtype=torch.int64)
         for row, text_spans in zip(mark, spans, strict=True):
@@ -109,15 +95,7 @@ class CueReader(nn.Module):
 
     @torch.no_grad()
     def read(self, text: str, places: Sequence[MentionSpan]) -> list[ReadCue]:
-        """Return the cue of each mention.
-
-        Args:
-            text: of any length.
-            places: characters and form of each mention.
-
-        Returns:
-            Cues in the order of `places`; an empty cue for a mention beyond the last token read.
-        """
+        """Return the cue of each mention; an empty cue for a mention beyond the last token read."""
         cues = [ReadCue(None, (), "seen", has_wind=False, is_meant=True)] * len(places)
         pieces = [(a, b, [n for n, place in enumerate(places) if a <= place[0] < b]) for a, b in _split_text(text)]
         pieces = [piece for piece in pieces if piece[2]]

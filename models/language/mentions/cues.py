@@ -12,21 +12,13 @@ Relation = Literal[
 
 @dataclass(frozen=True, slots=True)
 class Cue:
-    """The relation, direction and distance of a thing; None where not stated.
-
-    Attributes:
-        relation: kind of nearness.
-        angle: degrees clockwise from the heading.
-        wind: degrees clockwise from north, from the speaker to the thing.
-        measure: the distance.
-        angles: possible angles with their probabilities, if uncertain.
-    """
+    """The relation, direction and distance of a thing; None where not stated."""
 
     relation: Relation = "seen"
-    angle: float | None = None
-    wind: float | None = None
+    angle: float | None = None  # degrees clockwise from the heading
+    wind: float | None = None  # degrees clockwise from north, from the speaker to the thing
     measure: Measure | None = None
-    angles: tuple[tuple[float | None, float], ...] = ()
+    angles: tuple[tuple[float | None, float], ...] = ()  # possible angles with their probabilities, if uncertain
 
     @property
     def distance_m(self) -> float | None:

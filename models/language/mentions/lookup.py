@@ -33,30 +33,16 @@ EMPTY: Final = ARTICLES | english().list("empty")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Match:
-    """The objects that words may mean.
+    """The objects that words may mean."""
 
-    Attributes:
-        objects: [n] of the gazetteer.
-        weights: [n] relative.
-        trust: probability that the words mean one of them.
-        is_exact: whether the words are a whole name, or another name of a chain.
-    """
-
-    objects: Ints
-    weights: Floats
-    trust: float
-    is_exact: bool
+    objects: Ints  # [n] of the gazetteer
+    weights: Floats  # [n] relative
+    trust: float  # probability that the words mean one of them
+    is_exact: bool  # whether the words are a whole name, or another name of a chain
 
 
 class Lookup:
-    """Lookup in one gazetteer.
-
-    Args:
-        gazetteer: of the map.
-        vocabulary: nouns of kinds.
-        is_common: whether a plain word is an everyday word, which is rarely a name.
-        table: of the gazetteer; None to make it.
-    """
+    """Lookup in one gazetteer; `is_common` says whether a plain word is an everyday word, which is rarely a name."""
 
     def __init__(
         self,

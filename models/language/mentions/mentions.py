@@ -32,34 +32,22 @@ NO_LINES: Final = np.zeros((0, 4))
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Mention:
-    """A thing, street, corner, span or address that a text names.
-
-    Attributes:
-        text: the words.
-        start, end: their characters.
-        form: of the mention; "unknown" for a name that the map lacks.
-        objects: [n] candidates of the gazetteer.
-        weights: [n + e] relative weights of the objects, then of the lines.
-        lines_m: [e, 4] candidates that are not objects: corners, spans, interpolated house numbers.
-        trust: probability that the words mean any of the candidates.
-        is_exact: whether the words are a whole name of the map.
-        kinds: kinds that the words state.
-        cue: where it is from the speaker.
-        side: degrees of the stated side ("the north side of"); None without one.
-    """
+    """A thing, street, corner, span or address that a text names."""
 
     text: str
     start: int
     end: int
-    form: Form
-    objects: Ints = field(default_factory=lambda: NO_OBJECTS)
+    form: Form  # of the mention; "unknown" for a name that the map lacks
+    objects: Ints = field(default_factory=lambda: NO_OBJECTS)  # [n] candidates of the gazetteer
+    # [n + e] relative weights of the objects, then of the lines
     weights: Floats = field(default_factory=lambda: NO_WEIGHTS)
+    # [e, 4] candidates that are not objects: corners, spans, interpolated house numbers
     lines_m: Floats = field(default_factory=lambda: NO_LINES)
-    trust: float = 1.0
-    is_exact: bool = False
-    kinds: tuple[str, ...] = ()
-    cue: Cue = SEEN
-    side: float | None = None
+    trust: float = 1.0  # probability that the words mean any of the candidates
+    is_exact: bool = False  # whether the words are a whole name of the map
+    kinds: tuple[str, ...] = ()  # kinds that the words state
+    cue: Cue = SEEN  # where it is from the speaker
+    side: float | None = None  # degrees of the stated side ("the north side of"); None without one
 
     @classmethod
     def from_span(cls, span: Span, words: Sequence[Word], text: str) -> "Mention":

@@ -27,27 +27,16 @@ _POSTINGS: Final = ("names", "words", "spellings", "numbers", "streets", "street
 
 @dataclass(frozen=True, slots=True, eq=False)
 class NameTable:
-    """The names, streets and house numbers of one gazetteer, in plain words.
+    """The names, streets and house numbers of one gazetteer, in plain words."""
 
-    Attributes:
-        names: from a name to its objects, without streets.
-        words: from a word to the rows of the names with it.
-        spellings: from another name of a chain to objects: Kentucky Fried Chicken is KFC.
-        numbers: from a street in full, NUMBER_SEPARATOR and a house number to its objects.
-        streets: from a form of a street's name to rows of the next two.
-        street_words: the words of these forms; its numbers are unused.
-        street: [R] an object that the form means.
-        weight: [R] probability that the form means it.
-    """
-
-    names: Postings
-    words: Postings
-    spellings: Postings
-    numbers: Postings
-    streets: Postings
-    street_words: Postings
-    street: Ints
-    weight: Floats
+    names: Postings  # from a name to its objects, without streets
+    words: Postings  # from a word to the rows of the names with it
+    spellings: Postings  # from another name of a chain to objects: Kentucky Fried Chicken is KFC
+    numbers: Postings  # from a street in full, NUMBER_SEPARATOR and a house number to its objects
+    streets: Postings  # from a form of a street's name to rows of the next two
+    street_words: Postings  # the words of these forms; its numbers are unused
+    street: Ints  # [R] an object that the form means
+    weight: Floats  # [R] probability that the form means it
 
     @classmethod
     def from_gazetteer(
@@ -98,11 +87,7 @@ class NameTable:
 
     @classmethod
     def load(cls, directory: Path) -> "NameTable":
-        """Load a saved table.
-
-        Raises:
-            IndexBroken: the file is missing or not such a table.
-        """
+        """Load a saved table; raise IndexBroken if the file is missing or not such a table."""
         try:
             columns = map_arrays(directory / FILE)[0]
             postings = {name: Postings.from_columns(columns, name) for name in _POSTINGS}

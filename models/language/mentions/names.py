@@ -18,22 +18,14 @@ _SPELT: Final = frozenset(ORDINALS) | frozenset(TENS)  # the parts of "forty sec
 
 @dataclass(frozen=True, slots=True)
 class Word:
-    """A word of a text.
+    """A word of a text."""
 
-    Attributes:
-        plain: in lower case, without accents and apostrophes; ordinals as "42nd".
-        start, end: its characters.
-        is_capital: whether it begins with a capital letter.
-        begins: whether it is an everyday word that is capitalized because it begins a sentence.
-        owner: without the "'s" of "the library's ahead"; empty without "'s".
-    """
-
-    plain: str
+    plain: str  # in lower case, without accents and apostrophes; ordinals as "42nd"
     start: int
     end: int
-    is_capital: bool
-    owner: str = ""
-    begins: bool = False
+    is_capital: bool  # whether it begins with a capital letter
+    owner: str = ""  # without the "'s" of "the library's ahead"; empty without "'s"
+    begins: bool = False  # whether it is an everyday word that is capitalized because it begins a sentence
 
 
 def split_words(text: str) -> list[Word]:

@@ -24,13 +24,8 @@ def add_paraphrases(
 ) -> list[Span]:
     """Add spans of nouns that mean a name or noun of the map.
 
-    Args:
-        spans: of `find_spans`.
-        words: of the text.
-        nouns: characters start..end of nouns; those that end in "shop" and the like are found here.
-        text: the description.
-        lookup: of the map.
-        find_paraphrase: returns the plain words of the name or noun that a phrase means; None if it means none.
+    `nouns` are characters start..end; those that end in "shop" and the like are found here. `find_paraphrase` returns
+    the plain words of the name or noun that a phrase means.
     """
     result = [span for span in spans if span.form != "unknown"]
     taken = {n for span in result for n in range(span.first, span.last + 1)}

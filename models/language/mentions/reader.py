@@ -33,13 +33,7 @@ def find_mentions(
 ) -> list[Mention]:
     """Return the mentions of a text with their cues, in text order, without absent things.
 
-    Args:
-        text: the description.
-        lookup: of the map.
-        cues: the cue reader.
-        language: of the text; cues are read in English only.
-        nouns: characters start..end of nouns from the hint reader.
-        find_paraphrase: as in `add_paraphrases`; None to find names and nouns of the map only.
+    Cues are read in English only. `nouns` are characters start..end from the hint reader.
     """
     if language != ENGLISH:
         words, spans = find_spans(text, lookup, language)

@@ -29,10 +29,7 @@ def add_repeated_streets(text: str, mentions: Sequence[Mention]) -> list[Mention
 def resolve_repeated_streets(mentions: Sequence[Mention], streets: Sequence[Mention], lookup: Lookup) -> list[Mention]:
     """Give repeated streets with a direction the objects that they mean; drop the others.
 
-    Args:
-        mentions: with cues.
-        streets: all that the text names, also those that became corners and spans.
-        lookup: of the map.
+    `streets` are all that the text names, also those that became corners and spans.
     """
     result = []
     for mention in mentions:

@@ -32,50 +32,35 @@ FineMethod = Literal["regressor", "matching"]
 
 
 class FineConfig(BaseModel):
-    """Configuration common to all fine stages.
-
-    Attributes:
-        text_encoder: "minilm", a directory or a hub id.
-        width: D.
-        inputs: features of an instance, see `InstanceEncoder`; "points" adds a `PointEncoder`.
-        plain: whether a linear map of the geometry is added to the features of the instances, because their
-            normalisation blurs coordinates; False in the papers.
-        max_instances: number of instances of a cell to use, those nearest to its centre; None for all, which is more
-            accurate than the 16 of the paper.
-        rounds: rounds of cross-attention between hints and instances.
-        heads: of the attention.
-        dropout: of the attention layers in training.
-        error_m: standard deviation of a coordinate in metres, given the right cell; measured on validation data.
-    """
+    """Configuration common to all fine stages."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    text_encoder: str = DEFAULT_TEXT_ENCODER
-    width: int = 128
+    text_encoder: str = DEFAULT_TEXT_ENCODER  # "minilm", a directory or a hub id
+    width: int = 128  # D
+    # features of an instance, see `InstanceEncoder`; "points" adds a `PointEncoder`
     inputs: tuple[Input, ...] = Field(default=DEFAULT_INPUTS, min_length=1)
+    # whether a linear map of the geometry is added to the features of the instances, because their normalisation blurs
+    # coordinates; False in the papers
     plain: bool = True
+    # number of instances of a cell to use, those nearest to its centre; None for all, which is more accurate than the
+    # 16 of the paper
     max_instances: int | None = Field(default=None, ge=1)
-    rounds: int = Field(default=2, ge=1)
-    heads: int = 4
-    dropout: float = 0.1
+    rounds: int = Field(default=2, ge=1)  # rounds of cross-attention between hints and instances
+    heads: int = 4  # of the attention
+    dropout: float = 0.1  # of the attention layers in training
+    # standard deviation of a coordinate in metres, given the right cell; measured on validation data
     error_m: float | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class InstanceFeatures:
-    """Encoded instances of B cells.
+    """Encoded instances of B cells."""
 
-    Attributes:
-        features: [B, I, D].
-        geometry: [B, I, 16], see `models.paper.instance_encoder.GEOMETRY_WIDTHS`.
-        mask: [B, I] bool, True where an instance is real.
-        order: [B, I] int64, column of each instance in the batch of cells.
-    """
-
-    features: Tensor
-    geometry: Tensor
-    mask: Tensor
-    order: Tensor
+    features: Tensor  # [B, I, D]
+    geometry: Tensor  # [B, I, 16], see `models.paper.instance_encoder.GEOMETRY_WIDTHS`
+    mask: Tensor  # [B, I] bool, True where an instance is real
+    order: Tensor  # [B, I] int64, column of each instance in the batch of cells
 
     @property
     def center(self) -> Tensor:
@@ -94,15 +79,11 @@ class InstanceFeatures:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FineTargets:
-    """The training targets of B descriptions and their cells.
+    """The training targets of B descriptions and their cells."""
 
-    Attributes:
-        offset: [B, 2] true position in the cell, 0..1.
-        match: [B, H] int64, column in the batch of cells of the instance that each hint refers to; -1 if the cell does
-            not contain it.
-    """
-
-    offset: Tensor
+    offset: Tensor  # [B, 2] true position in the cell, 0..1
+    # [B, H] int64, column in the batch of cells of the instance that each hint refers to; -1 if the cell does not
+    # contain it
     match: Tensor
 
 
@@ -128,13 +109,7 @@ class FineModel(TextEncoderModel):
         )
 
     def locate(self, hints: Tensor, hint_mask: Tensor, instances: InstanceFeatures) -> Tensor:
-        """Return positions [B, 2] in the cells, 0..1 inside.
-
-        Args:
-            hints: [B, H, D] of `embed_hints`.
-            hint_mask: [B, H] bool, True where a hint is real.
-            instances: of `embed_instances`.
-        """
+        """Return positions [B, 2] in the cells, 0..1 inside, from hints [B, H, D] and their mask [B, H]."""
         raise NotImplementedError
 
     def loss(self, hints: Tensor, hint_mask: Tensor, instances: InstanceFeatures, targets: FineTargets) -> Tensor:
@@ -171,12 +146,7 @@ class FineModel(TextEncoderModel):
         return cells.with_point_features(self.points)
 
     def embed_instances(self, cells: CellBatch, label_embeddings: Tensor) -> InstanceFeatures:
-        """Encode the instances of cells, at most `max_instances` per cell.
-
-        Args:
-            cells: padded cells.
-            label_embeddings: [L, W] text embedding of each label.
-        """
+        """Encode the instances of padded cells, at most `max_instances` per cell; label_embeddings is [L, W]."""
         order = nearest_instances(cells, self.config.max_instances)
         row = torch.arange(len(order), device=order.device)[:, None]
         geometry, mask = cells.geometry[row, order], cells.mask[row, order]
@@ -199,10 +169,10 @@ class FineModel(TextEncoderModel):
     def predict(
         self, descriptions: Sequence[Sequence[str]], cells: CellFeatures, rows: npt.NDArray[np.integer[Any]]
     ) -> Offsets:
-        """Predict the position of each description in each of some cells.
+        """Predict the position of each of Q descriptions in each of its candidate cells.
 
         Args:
-            descriptions: Q lists of hint sentences, any number in any order.
+            descriptions: lists of hint sentences, any number in any order.
             cells: the gallery.
             rows: [Q, J] candidate cells; -1 for none.
 

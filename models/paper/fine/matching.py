@@ -16,20 +16,14 @@ from models.paper.layers import mlp
 
 
 class MatchingConfig(FineConfig):
-    """Architecture and loss of the matching.
+    """Architecture and loss of the matching."""
 
-    Attributes:
-        refine: whether offsets are predicted from hints after cross-attention (RET's cascaded matching and refinement)
-            instead of hints alone (Text2Pos).
-        iterations: of Sinkhorn's algorithm.
-        threshold: minimum share of a match that counts.
-        offset_weight: weight of the squared error of the offsets in the loss.
-    """
-
+    # whether offsets are predicted from hints after cross-attention (RET's cascaded matching and refinement) instead of
+    # hints alone (Text2Pos)
     refine: bool = False
-    iterations: int = 50
-    threshold: float = 0.2
-    offset_weight: float = 5.0
+    iterations: int = 50  # of Sinkhorn's algorithm
+    threshold: float = 0.2  # minimum share of a match that counts
+    offset_weight: float = 5.0  # weight of the squared error of the offsets in the loss
 
 
 class Matching(FineModel):
@@ -98,16 +92,8 @@ class Matching(FineModel):
 def sinkhorn(scores: Tensor, row_mask: Tensor, column_mask: Tensor, unmatched: Tensor, iterations: int) -> Tensor:
     """Compute optimal transport with bins for unmatched rows and columns (SuperGlue, CVPR 2020, Eq. 8 to 10).
 
-    Args:
-        scores: [B, H, I].
-        row_mask: [B, H] bool, True where a row is real.
-        column_mask: [B, I] bool, True where a column is real.
-        unmatched: scalar, score of having no match.
-        iterations: number of normalisations of rows and columns.
-
-    Returns:
-        Logarithm of the assignment, [B, H + 1, I + 1]: real rows and columns sum to 1, the bins to the number of
-        columns and rows; -inf at padding.
+    Returns the logarithm of the assignment [B, H + 1, I + 1] for scores [B, H, I]: real rows and columns sum to 1, the
+    bins to the number of columns and rows; -inf at padding. `unmatched` is the score of having no match.
     """
     b, h, i = scores.shape
     rows, columns = (mask.sum(dim=1, keepdim=True) for mask in (row_mask, column_mask))

@@ -12,16 +12,12 @@ from models.paper.layers import masked_max, mlp
 
 
 class RegressorConfig(FineConfig):
-    """Architecture and loss of the regressor.
+    """Architecture and loss of the regressor."""
 
-    Attributes:
-        point: whether hints receive the coordinates of the instances they attend to, see Regressor; False is the
-            matching-free model of the paper.
-        match_weight: weight of the log-likelihood that a hint attends to its true instance, relative to the squared
-            error.
-    """
-
+    # whether hints receive the coordinates of the instances they attend to, see Regressor; False is the matching-free
+    # model of the paper
     point: bool = True
+    # weight of the log-likelihood that a hint attends to its true instance, relative to the squared error
     match_weight: float = 0.1
 
 
