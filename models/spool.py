@@ -38,8 +38,10 @@ def spool_directory() -> Iterator[Path]:
     """Yield an empty directory among the temporary files; raise DataError if it cannot be created."""
     with ExitStack() as stack:
         with disk_errors():
-            scratch = TemporaryDirectory() if _directory is None else scratch_directory(_directory)
-            directory = Path(stack.enter_context(scratch))
+            if _directory is None:
+                directory = Path(stack.enter_context(TemporaryDirectory()))
+            else:
+                directory = stack.enter_context(scratch_directory(_directory))
         yield directory
 
 

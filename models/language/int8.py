@@ -27,14 +27,12 @@ Floats32 = npt.NDArray[np.float32]
 def _has_int8_products() -> bool:
     """Return whether the processor adds up 8-bit products in 32 bits; earlier ones saturate at 16."""
     capabilities: Mapping[str, Any] = getattr(torch.cpu, "get_capabilities", dict)()
-    if not torch.backends.mkldnn.is_available() or not (
-        capabilities.get("avx512_vnni") or capabilities.get("avx_vnni")
-    ):
+    has_vnni = capabilities.get("avx512_vnni") or capabilities.get("avx_vnni")
+    if not (torch.backends.mkldnn.is_available() and has_vnni):
         return False
     rows, weight = (torch.full((count, 1536), MAX_INT8, dtype=torch.int8) for count in (64, 384))
-    return bool(
-        (torch._int_mm(rows, weight.T) == 1536 * MAX_INT8**2).all()
-    )  # oneDNN may have been configured to do without
+    # Whether oneDNN uses them depends on its configuration.
+    return bool((torch._int_mm(rows, weight.T) == 1536 * MAX_INT8**2).all())
 
 
 HAS_INT8_PRODUCTS: Final = _has_int8_products()
@@ -115,10 +113,9 @@ class Int8Layer:
     def __call__(self, x: Tensor, size: torch.Size, bias: Tensor | None) -> Tensor:
         """Transform rows [R, W], the first S * T of which are tokens; `bias` as returned by `attention_bias`."""
         texts, tokens, width = size
-        heads = (
-            self._query_key_value(x)[: texts * tokens].view(texts, tokens, 3, self._heads, -1).permute(2, 0, 3, 1, 4)
-        )
-        attended = nn.functional.scaled_dot_product_attention(heads[0], heads[1], heads[2], bias)
+        heads = self._query_key_value(x)[: texts * tokens].view(texts, tokens, 3, self._heads, -1)
+        query, key, value = heads.permute(2, 0, 3, 1, 4)
+        attended = nn.functional.scaled_dot_product_attention(query, key, value, bias)
         rows = attended.transpose(1, 2).reshape(texts * tokens, width)
         rows = nn.functional.pad(rows, (0, 0, 0, len(x) - len(rows)))
         x = nn.functional.layer_norm(self._mixed(rows) + x, (width,), *self._norms[0], self._eps)

@@ -43,7 +43,7 @@ class Measure:
     is_loose: bool = False  # whether its number is vague or its unit is blocks, doors or minutes
     is_of: bool = False  # whether the reference follows it: "30 m short of the bridge"
 
-    def contains(self, span: "Span") -> bool:
+    def contains(self, span: "CharacterSpan") -> bool:
         """Return whether a span is part of the measure, such as its unit."""
         return self.start <= span.start and span.end <= self.end
 
@@ -58,16 +58,14 @@ class Bearing:
     is_of: bool = False  # whether it is "north of" something
 
 
-class Span(Protocol):
-    """A span of characters in a text."""
+class CharacterSpan(Protocol):
+    """A span of characters in a text, without the one at `end`."""
 
     @property
-    def start(self) -> int:
-        """Its first character."""
+    def start(self) -> int: ...  # noqa: D102
 
     @property
-    def end(self) -> int:
-        """The character after its last."""
+    def end(self) -> int: ...  # noqa: D102
 
 
 Fact = TypeVar("Fact", Measure, Bearing)
@@ -217,7 +215,7 @@ def ordinal(number: int) -> str:
     return f"{number}" + {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")
 
 
-def match_facts_to_spans(text: str, facts: Sequence[Fact], spans: Sequence[Span | None]) -> dict[int, Fact]:
+def match_facts_to_spans(text: str, facts: Sequence[Fact], spans: Sequence[CharacterSpan | None]) -> dict[int, Fact]:
     """Assign each fact to the nearest span, at most one fact per span, by the index of the span.
 
     A fact inside a span is part of a name; a span inside a fact is its unit. None is a span that takes no fact.
@@ -238,7 +236,7 @@ def match_facts_to_spans(text: str, facts: Sequence[Fact], spans: Sequence[Span 
     return matched
 
 
-def distance_in_text(text: str, fact: Measure | Bearing, span: Span) -> int:
+def distance_in_text(text: str, fact: Measure | Bearing, span: CharacterSpan) -> int:
     """Return the number of characters between a fact and a span.
 
     The end of a sentence or clause adds to it, and so does a fact whose reference follows if the span precedes.
@@ -247,9 +245,8 @@ def distance_in_text(text: str, fact: Measure | Bearing, span: Span) -> int:
     start, end = (fact.end, span.start) if is_before else (span.end, fact.start)
     is_far = _SENTENCE_END.search(text, start, max(start, end)) is not None or (fact.is_of and not is_before)
     is_over = is_before and _PAUSE.match(text, fact.end) is not None
-    return (
-        max(0, end - start) + (MAX_GAP_CHARACTERS // 2 if is_far else 0) + (MAX_GAP_CHARACTERS // 4 if is_over else 0)
-    )
+    extra = (MAX_GAP_CHARACTERS // 2 if is_far else 0) + (MAX_GAP_CHARACTERS // 4 if is_over else 0)
+    return max(0, end - start) + extra
 
 
 def _value(match: re.Match[str]) -> float:

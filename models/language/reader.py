@@ -101,13 +101,11 @@ class Reader(TextEncoderModel):
             rows = zip(places, relation.softmax(-1), colour.softmax(-1), absent.sigmoid().tolist(), strict=True)
             things = [ParsedHint(_noun(text, a, b), a, b, *rest) for (a, b), *rest in rows]
             measures = find_measures(text)
-            kept_rows = [
-                n for n, thing in enumerate(things) if not any(measure.contains(thing) for measure in measures)
-            ]
-            things = [things[n] for n in kept_rows]  # the blocks of "two blocks" are not things
-            nearest = match_facts_to_spans(text, measures, things)
-            things = [replace(thing, measure=nearest.get(n)) for n, thing in enumerate(things)]
-            hints.append(resolve(text, things, [TAGS[spans[n][2]] for n in kept_rows]))
+            # The blocks of "two blocks" are not things.
+            real = [n for n, thing in enumerate(things) if not any(measure.contains(thing) for measure in measures)]
+            nearest = match_facts_to_spans(text, measures, [things[n] for n in real])
+            things = [replace(things[n], measure=nearest.get(k)) for k, n in enumerate(real)]
+            hints.append(resolve(text, things, [TAGS[spans[n][2]] for n in real]))
         return hints
 
 
@@ -157,12 +155,8 @@ def _trim_noun(text: str, start: int, end: int) -> tuple[int, int]:
 def _size_pattern() -> re.Pattern[str]:
     """Match a size that a colour separates from its noun: "a small dark green pole"."""
     lexicon = load_lexicon()
-    words = {
-        word
-        for colour, names in lexicon.colours.items()
-        for name in (colour, *names)
-        for word in re.split(r"[\s-]", name)
-    }
+    colours = [name for colour, names in lexicon.colours.items() for name in (colour, *names)]
+    words = {word for name in colours for word in re.split(r"[\s-]", name)}
     colour, size = ("|".join(map(re.escape, sorted(options))) for options in (words, lexicon.sizes))
     return re.compile(rf"\b({size})(?:[\s-]+(?:{colour}))+\s+$", re.I)
 

@@ -41,21 +41,15 @@ class TokenFeatures:
 
 
 class TextEncoder(nn.Module):
-    """A frozen language model: MiniLM by default, T5 or Flan-T5 (encoder only) for the paper's setting.
-
-    Attributes:
-        source: what it was loaded from: "minilm", a directory or a hub id.
-        fingerprint: sha256 of its weights.
-        width: W, size of a token's features.
-    """
+    """A frozen language model: MiniLM by default, T5 or Flan-T5 (encoder only) for the paper's setting."""
 
     def __init__(self, model: nn.Module, tokenizer: Tokenizer, source: str, fingerprint: str) -> None:
         super().__init__()
         self.model = model.eval().requires_grad_(False)
         self.tokenizer = tokenizer
-        self.source = source
-        self.fingerprint = fingerprint
-        self.width = int(model.config.hidden_size)  # type: ignore[union-attr,arg-type]
+        self.source = source  # "minilm", a directory or a hub id
+        self.fingerprint = fingerprint  # sha256 of the weights
+        self.width = int(model.config.hidden_size)  # type: ignore[union-attr,arg-type]  # W, of a token's features
         self._ranks: dict[str, int] | None = None
         self._int8_layers: list[Int8Layer] = []  # of the first layers, which are frozen
         self._embeddings: Int8Embeddings | None = None
@@ -122,11 +116,7 @@ class TextEncoder(nn.Module):
         return self._ranks.get(word, COMMON_WORDS) < COMMON_WORDS
 
     def layers(self, first: int, last: int) -> nn.ModuleList:
-        """Return attention layers first to last.
-
-        Raises:
-            WeightsError: the model is not like BERT, or has fewer layers.
-        """
+        """Return attention layers first to last; raise WeightsError if the model is not like BERT or has fewer."""
         all_layers = getattr(getattr(self.model, "encoder", None), "layer", None)
         if all_layers is None or len(all_layers) < last or not hasattr(self.model, "embeddings"):
             raise WeightsError(

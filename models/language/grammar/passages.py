@@ -21,6 +21,7 @@ from models.language.grammar.labelled_text import Fact, opposite
 SLOT: Final = re.compile(r"\{(?:(\d):([^{}]+)|([a-zA-Z]+)(\d*)([!~=]?))\}")
 _NAMING = ("a", "A", "the", "The", "n", "b", "theb", "nb")
 _CLOSE = {"!": "on-top", "~": "near"}
+_SHARED_FIELDS = (("o", "relation"), ("d", "relation"), ("ns", "label"), ("c", "colour"))  # by kind of slot
 _HEAD_ENDS = re.compile(r" (?:of|that|where|which|with|for|on|in|to|by|from|beside|under|over|between|at)\b")
 
 
@@ -33,10 +34,10 @@ class Passage:
     @cached_property
     def slots(self) -> list[tuple[str, tuple[int, ...], str]]:
         """(kind, numbers from 0, mark) of each slot; the kind of stand-ins is "=", and their mark is the words."""
-        slots = []
-        for number, words, what, numbers, mark in SLOT.findall(self.phrase):
-            slots.append(("=", (int(number) - 1,), words) if number else (what, _numbers(numbers), mark))
-        return slots
+        return [
+            ("=", (int(number) - 1,), words) if number else (what, _numbers(numbers), mark)
+            for number, words, what, numbers, mark in SLOT.findall(self.phrase)
+        ]
 
     @cached_property
     def pieces(self) -> list[tuple[str, tuple[str, tuple[int, ...], str], str]]:
@@ -98,7 +99,7 @@ class Passage:
         for n, fact in enumerate(drawn):
             opposites = [opposite(facts[a].relation) for a, b in map(sorted, self.shared("x")) if b == n]
             changed: dict[str, Any] = {"relation": self.close.get(n, (opposites or [fact.relation])[0])}
-            for kind, name in (("o", "relation"), ("d", "relation"), ("ns", "label"), ("c", "colour")):
+            for kind, name in _SHARED_FIELDS:
                 alike = [m for group in self.shared(kind) if n in group for m in group]
                 if min(alike, default=n) < n:
                     changed[name] = getattr(facts[min(alike)], name)
@@ -117,12 +118,6 @@ class Passage:
             return False
         if candidate.colour is None and any(position in numbers for numbers in self.shared("c")):
             return False
-        agree: tuple[tuple[str, Callable[[Fact], str | None]], ...] = (
-            ("o", lambda f: f.relation),
-            ("d", lambda f: f.relation),
-            ("c", lambda f: f.colour),
-            ("ns", lambda f: f.label),
-        )
         if any(
             facts[taken[a]].relation != opposite(candidate.relation)
             for a, b in map(sorted, self.shared("x"))
@@ -130,8 +125,8 @@ class Passage:
         ):
             return False
         return all(
-            value(facts[taken[n]]) == value(candidate)
-            for kind, value in agree
+            getattr(facts[taken[n]], name) == getattr(candidate, name)
+            for kind, name in _SHARED_FIELDS
             for numbers in self.shared(kind)
             if position in numbers
             for n in numbers

@@ -25,11 +25,8 @@ from models.language.grammar.typos import spoil
 from models.language.lexicon.lexicon import Names
 from models.language.measures import COMPASS
 
-PASSAGE_SHARE, PASSAGE_TRIES = (
-    0.5,
-    16,
-)  # share of the times that a passage is looked for, and among how many; first of all among
-# those with plurals, if there are several things of a class
+PASSAGE_SHARE = 0.5  # of the times that a passage is tried
+PASSAGE_TRIES = 16  # random passages; if there are several things of a class, as many with plurals before
 LONG_PASSAGE_THINGS = 4  # things of a passage that can be a whole description
 
 
@@ -41,10 +38,8 @@ class Wording:
         self.labels, self.colours, self.compass = tables.labels, tables.colours, tables.compass
         self._distances = tables.phrases["distance"]
         self._phrases = {kind: [Passage(phrase) for phrase in phrases] for kind, phrases in tables.phrases.items()}
-        self._phrases["plurals"] = [passage for passage in self._phrases["passages"] if passage.shared("ns")]
-        self._phrases["whole"] = [
-            passage for passage in self._phrases["passages"] if passage.things >= LONG_PASSAGE_THINGS
-        ]
+        self._phrases["plurals"] = [p for p in self._phrases["passages"] if p.shared("ns")]
+        self._phrases["whole"] = [p for p in self._phrases["passages"] if p.things >= LONG_PASSAGE_THINGS]
 
     def write(self, facts: Sequence[Fact], rng: np.random.Generator, noise: bool = True) -> LabelledText:
         """Return a description of facts in random order; noise adds typos, lower case and missing full stops."""
@@ -141,21 +136,21 @@ class Wording:
         self, phrase: Passage, facts: Sequence[Fact], taken: Sequence[int], rng: np.random.Generator
     ) -> LabelledText:
         """Fill the slots of a phrase."""
-        told_facts = [facts[n] for n in taken]
-        nouns = [fact.name or self._word(self.labels, fact.label, rng) for fact in told_facts]
-        colours = [c and self._word(self.colours, c, rng) for c in (fact.colour for fact in told_facts)]
+        chosen = [facts[n] for n in taken]
+        nouns = [fact.name or self._word(self.labels, fact.label, rng) for fact in chosen]
+        colours = [c and self._word(self.colours, c, rng) for c in (fact.colour for fact in chosen)]
         named, text = set[int](), ""
         mentions: list[LabelledMention] = []
         for before, (what, numbers, mark), after in phrase.pieces:
             text += before
             k = numbers[0]
-            lead, noun = self._slot(what, mark, told_facts[k], nouns[k], colours[k], rng)
+            lead, noun = self._slot(what, mark, chosen[k], nouns[k], colours[k], rng)
             if what in ("d", "o"):
-                wind = told_facts[k].relation if what == "d" else opposite(told_facts[k].relation)
+                wind = chosen[k].relation if what == "d" else opposite(chosen[k].relation)
                 lead = wind if re.match("-?[a-z]", after) else _one_of(self.compass[wind], rng)  # "ern", "-facing"
             if noun and (what in ("=", "c") or not named.intersection(numbers)):
                 start = len(text) + len(lead)
-                mention = _mention(phrase, (what, numbers), told_facts, start, noun)
+                mention = _mention(phrase, (what, numbers), chosen, start, noun)
                 mentions.append(replace(mention, facts=tuple(taken[n] for n in mention.facts)))
                 named.update(numbers)
             text += lead + noun
@@ -231,8 +226,8 @@ def _mention(
     end = start + len(noun)
     if what != "ns":
         return LabelledMention(numbers, start, end, noun, "stand-in" if what in ("=", "c") else "noun", coloured)
-    is_told = not set(numbers) & set(phrase.stand_ins)
-    return LabelledMention(numbers if is_told else (), start, end, noun, "plural", coloured and is_told)
+    is_all = not set(numbers) & set(phrase.stand_ins)
+    return LabelledMention(numbers if is_all else (), start, end, noun, "plural", coloured and is_all)
 
 
 def _one_of(options: Sequence[str], rng: np.random.Generator) -> str:
@@ -247,13 +242,8 @@ def _article(noun: str) -> str:
 
 def _lower_first(sentence: LabelledText) -> LabelledText:
     text = sentence.text
-    if (
-        text[:1].isupper()
-        and not re.match(r"(I\b|[A-Z]{2})", text)
-        and not any(m.start == 0 for m in sentence.mentions)
-    ):
-        return replace(sentence, text=text[0].lower() + text[1:])
-    return sentence
+    is_name = re.match(r"(I\b|[A-Z]{2})", text) or any(m.start == 0 for m in sentence.mentions)
+    return replace(sentence, text=text[0].lower() + text[1:]) if text[:1].isupper() and not is_name else sentence
 
 
 def _join(one: LabelledText, other: LabelledText, rng: np.random.Generator) -> LabelledText:

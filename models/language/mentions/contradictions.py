@@ -35,16 +35,12 @@ def _pairs(one: Mention, other: Mention) -> Iterator[tuple[ShownDirection, Shown
 
 
 def _side(degrees: float) -> ShownDirection:
-    return f"its {_name(degrees)} side", degrees
+    return f"its {compass_name(degrees)} side", degrees
 
 
 def _wind(degrees: float) -> ShownDirection:
-    return f"in the {_name(degrees)}", degrees
+    return f"in the {compass_name(degrees)}", degrees
 
 
 def _ego(degrees: float) -> ShownDirection:
     return _EGO[round(degrees / 90.0) % 4], degrees
-
-
-def _name(degrees: float) -> str:
-    return compass_name(degrees)

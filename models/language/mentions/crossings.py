@@ -1,4 +1,4 @@
-"""Combine streets of a text: corners, spans between two cross streets, house numbers."""
+"""Combine streets of a text (corners, spans between two cross streets, house numbers), and resolve repeated ones."""
 
 import re
 from collections.abc import Sequence
@@ -13,11 +13,13 @@ from models.language.measures import find_measures
 from models.language.mentions.cues import Cue
 from models.language.mentions.lookup import Lookup
 from models.language.mentions.mentions import Mention
+from models.language.mentions.names import full_words, plain_words
 from models.language.mentions.word_lists import english
 
 LONGEST_SPAN_M: Final = 600.0
 _W = english()
 _MEETS, _AND = _W.pattern("streets", "meets"), _W.pattern("streets", "and")
+_AGAIN = _W.pattern("streets", "again")  # a street repeated by its kind: "I'm on Fifth, the avenue is behind me"
 _LOOSELY, _BETWEEN = _W.pattern("streets", "loosely"), _W.pattern("streets", "between")
 _SURELY = re.compile(r"\b(?:and|at|meets|crosses|corner of)\b|[&/@]", re.IGNORECASE)
 _AT_END = re.compile(r"\s*(?:$|[.,;!?\n]|corner\b|crossing\b|intersection\b)", re.IGNORECASE)
@@ -27,26 +29,25 @@ _NUMBER_AFTER = re.compile(r"\s+(?:number |no\.? |#)?(\d{1,4}[a-z]?)(?!\w|\.\d|\
 
 def add_addresses(mentions: Sequence[Mention], text: str, lookup: Lookup) -> list[Mention]:
     """Turn streets with a house number before or after them into addresses."""
-    add_addresses, measures = [], find_measures(text)
+    result, measures = [], find_measures(text)
     for mention in mentions:
         before, after = _NUMBER.search(text[: mention.start]), _NUMBER_AFTER.match(text, mention.end)
         if after and any(measure.start <= after.start(1) < measure.end for measure in measures):
             after = None
         number = before or after
         if mention.form != "street" or number is None:
-            add_addresses.append(mention)
+            result.append(mention)
             continue
         start, end = (before.start(), mention.end) if before else (mention.start, number.end(1))
         objects, lines = lookup.address(number[1], mention.objects)
         words = text[start:end]
         if not len(objects) and not len(lines):
-            add_addresses += [mention, Mention(words, start, end, "unknown")]
+            result += [mention, Mention(words, start, end, "unknown")]
             continue
         weights = np.ones(len(objects) or len(lines))
-        add_addresses.append(
-            Mention(words, start, end, "address", objects, weights, lines, 1.0, is_exact=len(objects) > 0)
-        )
-    return add_addresses
+        is_exact = len(objects) > 0
+        result.append(Mention(words, start, end, "address", objects, weights, lines, 1.0, is_exact=is_exact))
+    return result
 
 
 def add_corners(text: str, mentions: Sequence[Mention], lookup: Lookup) -> list[Mention]:
@@ -147,3 +148,43 @@ def _ends(side: Mention, mains: Ints, lookup: Lookup) -> list[tuple[int, Floats]
         rows = np.flatnonzero(np.isin(cross, side.objects) & np.isin(street, mains))
         ends += [(int(street[n]), g.corners_m[n].astype(np.float64)) for n in rows]
     return ends
+
+
+def add_repeated_streets(text: str, mentions: Sequence[Mention]) -> list[Mention]:
+    """Add mentions of streets without objects where the text may repeat one by its kind."""
+    taken = [(mention.start, mention.end) for mention in mentions]
+    again = [
+        Mention(text[match.start(1) : match.end(1)], match.start(1), match.end(1), "street")
+        for match in _AGAIN.finditer(text)
+        if not any(start < match.end(1) and match.start(1) < end for start, end in taken)
+    ]
+    return sorted([*mentions, *again], key=lambda mention: mention.start)
+
+
+def resolve_repeated_streets(mentions: Sequence[Mention], streets: Sequence[Mention], lookup: Lookup) -> list[Mention]:
+    """Give repeated streets with a direction the objects that they mean; drop the others.
+
+    `streets` are all that the text names, also those that became corners and spans.
+    """
+    result = []
+    for mention in mentions:
+        if mention.form != "street" or len(mention.objects):
+            result.append(mention)
+            continue
+        meant = _referent(mention, streets, lookup) if mention.cue.angle is not None else None
+        if meant is not None:
+            result.append(replace(mention, objects=meant.objects, weights=meant.weights, trust=meant.trust))
+    return result
+
+
+def _referent(mention: Mention, streets: Sequence[Mention], lookup: Lookup) -> Mention | None:
+    """Return the last street of the kind before a mention, else the last street."""
+    before = [street for street in streets if street.end <= mention.start]
+    kind = full_words(plain_words(mention.text))[-1]
+    of_kind = [street for street in before if kind in _street_kinds(street.objects, lookup)]
+    return next(reversed(of_kind or before), None)
+
+
+def _street_kinds(objects: Ints, lookup: Lookup) -> set[str]:
+    names = (name for n in np.asarray(objects)[:20] for name in lookup.gazetteer.objects[n].names)
+    return {full_words(plain)[-1] for name in names if (plain := plain_words(name))}

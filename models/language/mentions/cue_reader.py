@@ -14,19 +14,8 @@ from models.language.mentions.cues import Relation
 from models.language.mentions.spans import Form
 from models.language.text_encoder import TextEncoder, TokenFeatures
 
-ANGLES: Final = (
-    None,
-    0.0,
-    22.0,
-    45.0,
-    90.0,
-    135.0,
-    180.0,
-    -135.0,
-    -90.0,
-    -45.0,
-    -22.0,
-)  # degrees; None without a direction
+# Degrees; None without a direction.
+ANGLES: Final = (None, 0.0, 22.0, 45.0, 90.0, 135.0, 180.0, -135.0, -90.0, -45.0, -22.0)
 RELATIONS: Final[tuple[Relation, ...]] = get_args(Relation)
 FORMS: Final[tuple[Form, ...]] = get_args(Form)
 FLAGS: Final = ("wind", "meant")

@@ -31,4 +31,4 @@ class Cue:
         return self.measure is not None and self.measure.is_loose
 
 
-SEEN: Final = Cue()
+NO_CUE: Final = Cue()

@@ -16,8 +16,7 @@ from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.language.mentions.languages import ENGLISH
 from models.language.mentions.name_table import NUMBER_SEPARATOR, NameTable
-from models.language.mentions.names import ARTICLES, plain_word, plain_words
-from models.language.mentions.streets import full_words
+from models.language.mentions.names import ARTICLES, full_words, plain_word, plain_words
 from models.language.mentions.word_lists import english
 
 Nouns = Mapping[str, tuple[tuple[str, float], ...]]

@@ -12,15 +12,15 @@ from models.citymap.types import Floats
 from models.language.measures import (
     COMPASS_WORD,
     Bearing,
+    CharacterSpan,
     Measure,
     find_bearings,
     find_measures,
     first_bearing,
     match_facts_to_spans,
 )
-from models.language.measures import Span as TextSpan
 from models.language.mentions.cue_reader import CueReader, ReadCue
-from models.language.mentions.cues import SEEN, Cue
+from models.language.mentions.cues import NO_CUE, Cue
 from models.language.mentions.names import Word
 from models.language.mentions.spans import Form, Span
 from models.language.mentions.word_lists import english
@@ -46,7 +46,7 @@ class Mention:
     trust: float = 1.0  # probability that the words mean any of the candidates
     is_exact: bool = False  # whether the words are a whole name of the map
     kinds: tuple[str, ...] = ()  # kinds that the words state
-    cue: Cue = SEEN  # where it is from the speaker
+    cue: Cue = NO_CUE  # where it is from the speaker
     side: float | None = None  # degrees of the stated side ("the north side of"); None without one
 
     @classmethod
@@ -85,13 +85,11 @@ def add_cues(text: str, mentions: Sequence[Mention], reader: CueReader) -> list[
     measures = match_facts_to_spans(text, find_measures(text), [mention for mention, _ in meant])
     winds_by_mention = match_facts_to_spans(text, winds, [mention if cue.has_wind else None for mention, cue in meant])
     sides_by_mention = _sides(text, _without_overlaps(sides, mentions), meant)
-    cues = [
-        _cue(text, mention, cue, measures.get(n), winds_by_mention.get(n)) for n, (mention, cue) in enumerate(meant)
-    ]
-    return [
-        replace(mention, cue=cues[n], side=sides_by_mention[n].degrees if n in sides_by_mention else None)
-        for n, (mention, _) in enumerate(meant)
-    ]
+    result = []
+    for n, (mention, read_cue) in enumerate(meant):
+        cue = _cue(text, mention, read_cue, measures.get(n), winds_by_mention.get(n))
+        result.append(replace(mention, cue=cue, side=sides_by_mention[n].degrees if n in sides_by_mention else None))
+    return result
 
 
 def _is_greeted(text: str, mention: Mention) -> bool:
@@ -111,7 +109,7 @@ def _is_repeated(text: str, mention: Mention, before: Sequence[Mention]) -> bool
     return any(one.form == "thing" and one.text.lower().endswith(words) and not one.is_exact for one in before)
 
 
-def _without_overlaps(bearings: Sequence[Bearing], others: Sequence[TextSpan]) -> list[Bearing]:
+def _without_overlaps(bearings: Sequence[Bearing], others: Sequence[CharacterSpan]) -> list[Bearing]:
     """Return the bearings that overlap none of the others."""
     return [one for one in bearings if not any(one.start < other.end and other.start < one.end for other in others)]
 
@@ -122,9 +120,8 @@ def _cue(text: str, mention: Mention, read: ReadCue, far: Measure | None, wind: 
         # "north of it" has the thing in the south
         is_from_it = wind.is_of and wind.start < mention.start
         degrees = (wind.degrees + 180.0) % 360.0 if is_from_it else wind.degrees
-    relation = (
-        mention.cue.relation if mention.cue != SEEN else read.relation
-    )  # of corners and spans: by their own words
+    # Corners and spans have a relation from their own words.
+    relation = mention.cue.relation if mention.cue != NO_CUE else read.relation
     if _ON_TOP.search(text[: mention.start]):
         relation = "on"
     elif relation == "block" and degrees is not None and "block" not in text.lower():
@@ -139,9 +136,7 @@ def _sides(text: str, sides: Sequence[Bearing], meant: Sequence[tuple[Mention, R
     side_of: dict[int, Bearing] = {}
     for side in sides:
         if _THE_STREET.match(text, side.end):
-            before = [
-                n for n, (mention, _) in enumerate(meant) if mention.form == "street" and mention.end <= side.start
-            ]
+            before = [n for n, (one, _) in enumerate(meant) if one.form == "street" and one.end <= side.start]
             on = [n for n in before if meant[n][1].relation == "inside"]
             if before:
                 side_of[(on or before)[-1]] = side

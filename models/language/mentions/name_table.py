@@ -16,8 +16,7 @@ from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.errors import IndexBroken
 from models.files import map_arrays
-from models.language.mentions.names import plain_words
-from models.language.mentions.streets import full_words, street_forms
+from models.language.mentions.names import full_words, plain_words, street_forms
 from models.strings import Postings, PostingsBuilder, merge_columns
 
 FILE: Final = "names.safetensors"

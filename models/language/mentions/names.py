@@ -1,12 +1,13 @@
-"""Normalize names: case, accents, apostrophes, articles, ordinals."""
+"""Normalize names (case, accents, apostrophes, articles, ordinals), and list the forms of a street's name."""
 
 import re
 import unicodedata
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Final
 
-from models.language.measures import ONES, ORDINALS, TENS, ordinal
+from models.language.measures import COMPASS_OF_LETTERS, ONES, ORDINALS, TENS, ordinal
 
 _WORD = re.compile(r"\d+(?:[-/]\d+)?\w*|[^\W\d_](?:['’`´]?[\w\u0300-\u036f])*|&|@|\+|/")  # noqa: RUF001  # a typeset apostrophe
 _APOSTROPHE = re.compile(r"['’`´]")  # noqa: RUF001
@@ -14,6 +15,21 @@ _OWNED = re.compile(r"['’`´]s$", re.I)  # noqa: RUF001
 ARTICLES: Final = frozenset(("the", "a", "an"))
 _SIMPLE: Final = re.compile(r"[a-z]+(?: [a-z]+)*")
 _SPELT: Final = frozenset(ORDINALS) | frozenset(TENS)  # the parts of "forty second"
+
+# Abbreviations of kinds of streets, from libpostal's English, German and Finnish dictionaries.
+STREET_ABBREVIATIONS: Final = {
+    "st": "street", "str": "street", "strt": "street", "streets": "street", "ave": "avenue", "av": "avenue",
+    "aven": "avenue", "avenu": "avenue", "avenues": "avenue", "blvd": "boulevard", "rd": "road", "dr": "drive",
+    "ln": "lane", "pl": "place", "sq": "square", "ct": "court", "ter": "terrace", "pkwy": "parkway", "hwy": "highway",
+    "expy": "expressway", "plz": "plaza", "xing": "crossing",
+}  # fmt: skip
+STREET_KINDS: Final = frozenset(STREET_ABBREVIATIONS.values()) | frozenset(
+    ["way", "alley", "row", "walk", "path", "esplanade", "circle", "loop", "bridge", "strasse", "allee", "damm"]
+)
+_COMPASS: Final = frozenset(COMPASS_OF_LETTERS.values())
+_SHORT: Final = {"lexington": "lex", "madison": "mad", "broadway": "bway", "americas": "americas"}
+_COMPOUND: Final = re.compile(r"(strasse|str)$")
+ORDINAL: Final = re.compile(r"\d+(?:st|nd|rd|th)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,3 +92,41 @@ def plain_word(word: str) -> str:
     folded = unicodedata.normalize("NFKD", bare).casefold()
     letters = unicodedata.normalize("NFKD", folded)
     return "".join(c for c in letters if not unicodedata.combining(c))
+
+
+def full_words(words: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the words of a street with directions and kinds written out; a leading "st" is a saint."""
+    ends = (0, len(words) - 1) if len(words) > 1 else ()
+    full = [COMPASS_OF_LETTERS.get(word, word) if n in ends else word for n, word in enumerate(words)]
+    full[:1] = ["saint" if word == "st" else word for word in full[:1]]
+    full[1:] = [STREET_ABBREVIATIONS.get(word, word) for word in full[1:]]
+    return tuple(_COMPOUND.sub("strasse", word) if len(word) > 6 else word for word in full)
+
+
+def street_forms(name: str) -> Iterator[tuple[tuple[str, ...], float]]:
+    """Yield every form of a street's name with the probability that it means this street."""
+    full = full_words(plain_words(name))
+    yield full, 1.0
+    if len(full) < 2:
+        if full and full[0] in _SHORT:
+            yield (_SHORT[full[0]],), 0.9
+        return
+    winded = full[0] in _COMPASS and len(full) > 2
+    rest = full[1:] if winded else full
+    if winded:
+        yield rest, 0.95
+    if rest[-1] in STREET_KINDS:
+        kind = rest[-1]
+    elif len(rest) > 2 and rest[-1] in _COMPASS and rest[-2] in STREET_KINDS:
+        kind = rest[-2]
+    else:
+        return
+    if rest[-1] != kind:
+        yield rest[:-1], 0.85  # "Hudson Boulevard" of its east side
+    bare = tuple(word for word in rest if word != kind)
+    if bare and not set(bare) <= _COMPASS and bare != ("the",):
+        yield bare, 0.9
+        if winded:
+            yield (full[0], *bare), 0.95
+        if len(bare) == 1 and bare[0] in _SHORT:
+            yield (_SHORT[bare[0]],), 0.9

@@ -6,14 +6,18 @@ from dataclasses import replace
 from typing import Final
 
 from models.language.measures import COMPASS_WORD, find_measures, first_bearing
-from models.language.mentions.crossings import add_addresses, add_corners
+from models.language.mentions.crossings import (
+    add_addresses,
+    add_corners,
+    add_repeated_streets,
+    resolve_repeated_streets,
+)
 from models.language.mentions.cue_reader import CueReader
 from models.language.mentions.languages import ENGLISH
 from models.language.mentions.lookup import Lookup
 from models.language.mentions.mentions import Mention, add_cues
 from models.language.mentions.paraphrases import FindParaphrase, add_paraphrases
 from models.language.mentions.spans import find_spans
-from models.language.mentions.street_references import add_repeated_streets, resolve_repeated_streets
 from models.language.mentions.word_lists import english
 
 MAX_OBJECTS: Final = 2500  # a mention with more candidates is ignored

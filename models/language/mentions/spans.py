@@ -13,9 +13,8 @@ from rapidfuzz.distance import OSA
 from models.language.measures import find_measures
 from models.language.mentions.languages import ENGLISH
 from models.language.mentions.lookup import EMPTY, Lookup, Match
-from models.language.mentions.names import Word, split_words
+from models.language.mentions.names import ORDINAL, Word, split_words
 from models.language.mentions.street_spans import match_street
-from models.language.mentions.streets import ORDINAL
 from models.language.mentions.word_lists import english
 
 Form = Literal["thing", "street", "corner", "span", "address", "unknown"]
@@ -64,9 +63,7 @@ def find_spans(text: str, lookup: Lookup, language: str = ENGLISH) -> tuple[list
             if ends[last]:
                 break
     measures = find_measures(text)  # "twenty-five" metres are not 25th Street
-    spans = [
-        span for span in spans if not (span.form == "street" and any(m.contains(words[span.last]) for m in measures))
-    ]
+    spans = [s for s in spans if not (s.form == "street" and any(m.contains(words[s.last]) for m in measures))]
     chosen = _with_unknown(_chosen(spans, words), words, text, lookup)
     return words, [attach_objects(span, lookup) for span in _joined(chosen, words, text)]
 
@@ -75,10 +72,9 @@ def correct_noun(word: str, lookup: Lookup) -> str:
     """Return the word of a noun that is similar to a misspelt one; the word itself if there is none."""
     if len(word) < 5:
         return word
-    like = process.extractOne(
-        word, lookup.noun_words, scorer=OSA.normalized_similarity, score_cutoff=MIN_NOUN_SIMILARITY
-    )
-    return like[0] if like else word
+    scorer, nouns = OSA.normalized_similarity, lookup.noun_words
+    similar = process.extractOne(word, nouns, scorer=scorer, score_cutoff=MIN_NOUN_SIMILARITY)
+    return similar[0] if similar else word
 
 
 def _starts(word: Word, before: Word | None, text: str) -> bool:
@@ -119,16 +115,8 @@ def _spans_at(
     is_passed = first == last and plain[0] in PASSED and not _is_seen(words, first)
     kinds = {} if is_passed else _kinds(plain, mended, lookup, language)
     if kinds:
-        spans.append(
-            Span(
-                first,
-                last,
-                "thing",
-                None,
-                (WORD_SCORE if len(plain) == 1 else PHRASE_SCORE) + WORD_SCORE * len(plain),
-                kinds,
-            )
-        )
+        score = (WORD_SCORE if len(plain) == 1 else PHRASE_SCORE) + WORD_SCORE * len(plain)
+        spans.append(Span(first, last, "thing", None, score, kinds))
     is_street = any(span.match is not None and span.match.is_exact for span in streets)
     named = None if is_street else _named(words[first : last + 1], plain, lookup, cased=cased, is_kind=bool(kinds))
     if named:
@@ -279,15 +267,12 @@ def _joined(spans: Sequence[Span], words: Sequence[Word], text: str) -> list[Spa
         close = between.strip() == "" or _APPOSED.fullmatch(between) is not None
         named_kind = last.form == "unknown" or last.match is not None
         kind_of_name = span.match is not None and last.match is None and last.form == "thing"
+        characters = words[span.last].end - words[span.first].start
         if both_kinds and between.strip() == "":
             joined[-1] = Span(last.first, span.last, "thing", None, last.score, span.kinds)
         elif close and named_kind and span.match is None and span.form == "thing":
             joined[-1] = Span(last.first, span.last, "thing", last.match, last.score + span.score, span.kinds)
-        elif (
-            kind_of_name
-            and _NAMED_SO.fullmatch(between)
-            and words[span.last].end - words[span.first].start > MIN_NAME_CHARACTERS
-        ):
+        elif kind_of_name and _NAMED_SO.fullmatch(between) and characters > MIN_NAME_CHARACTERS:
             joined[-1] = Span(last.first, span.last, "thing", span.match, last.score + span.score, last.kinds)
         else:
             joined.append(span)

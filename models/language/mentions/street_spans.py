@@ -5,8 +5,7 @@ from typing import Final
 
 from models.language.measures import COMPASS_OF_LETTERS, ordinal
 from models.language.mentions.lookup import Lookup, Match
-from models.language.mentions.names import Word
-from models.language.mentions.streets import KINDS, ORDINAL, TYPES
+from models.language.mentions.names import ORDINAL, STREET_ABBREVIATIONS, STREET_KINDS, Word
 from models.language.mentions.word_lists import english
 
 STREET_SCORE, TYPE_SCORE, WORD_SCORE = 5.0, 2.0, 3.0  # scores of street spans
@@ -24,7 +23,7 @@ def match_street(
     """Return the streets of a name; of a short form, such as an ordinal, only next to words that go with streets."""
     if len(plain) == 1 and plain[0].isdecimal():
         return None
-    has_type = plain[-1] in KINDS or plain[-1] in TYPES
+    has_type = plain[-1] in STREET_KINDS or plain[-1] in STREET_ABBREVIATIONS
     match = lookup.street(plain)
     if match is None and has_type and len(plain) > 1 and plain[-2].isdecimal() and plain[-2].isascii():
         match = lookup.street((*plain[:-2], ordinal(int(plain[-2])), plain[-1]))

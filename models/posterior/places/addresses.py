@@ -10,8 +10,7 @@ import numpy as np
 from models.citymap.gazetteer.name_columns import GazetteerObject
 from models.citymap.points import Ints
 from models.language.mentions.name_table import NUMBER_SEPARATOR
-from models.language.mentions.names import plain_words
-from models.language.mentions.streets import ORDINAL
+from models.language.mentions.names import ORDINAL, plain_words
 from models.posterior.places.name_index import NameIndex
 from models.strings import Column, Postings, StringArray
 

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from models.citymap.points import Ints
-from models.language.mentions.names import plain_words
-from models.language.mentions.streets import full_words, street_forms
+from models.language.mentions.names import full_words, plain_words, street_forms
 from models.strings import Column, Postings, StringArray
 
 
