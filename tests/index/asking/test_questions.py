@@ -112,15 +112,7 @@ def test_several_answers_multiply(posterior):
 def test_the_question_leaves_the_least_entropy_of_all_that_could_be_asked(posterior):
     """Against the posterior itself: every answer is given, and cells' masses are compared before and after."""
     [finding] = posterior.find([VAGUE])
-    # of a map without names: what can be answered to an open question is not listed
-    given = (
-        posterior.nodes.nearby_objects,
-        list(posterior.labels),
-        posterior.nodes._palette,
-        EMPTY_GAZETTEER,
-        posterior.gallery.cells,
-    )
-    located, questions = finding.located, Questions(*given)
+    located, questions = finding.located, questions_about(posterior, EMPTY_GAZETTEER)  # so all answers are listed
     cell_of = np.repeat(np.arange(len(posterior.gallery.cells)), np.diff(posterior.surroundings.cell_starts))
 
     def mass(weight):
@@ -155,7 +147,7 @@ def test_a_house_number_is_asked_for_where_a_word_would_tell_too_little(posterio
 
 def with_house_numbers(posterior):
     """The questions about the map if a house stood in the middle of each of its cells, numbered from 1."""
-    nearby_objects, gazetteer = posterior.nodes.nearby_objects, posterior.places.gazetteer
+    gazetteer = posterior.places.gazetteer
     centers_m = posterior.gallery.cells.center_m[:, :2]
     houses = [GazetteerObject((ADDRESS_KIND,), (), str(n + 1), "East Street 3") for n in range(len(centers_m))]
     builder = ObjectTableBuilder()
@@ -167,7 +159,13 @@ def with_house_numbers(posterior):
         starts=np.concatenate([gazetteer.starts, gazetteer.starts[-1] + 1 + np.arange(len(centers_m))]),
         is_area=np.concatenate([gazetteer.is_area, np.zeros(len(centers_m), bool)]),
     )
-    return Questions(nearby_objects, list(posterior.labels), posterior.nodes._palette, town, posterior.gallery.cells)
+    return questions_about(posterior, town)
+
+
+def questions_about(posterior, gazetteer):
+    """Return the questions about the map if it had these names."""
+    nodes = posterior.nodes
+    return Questions(nodes.nearby_objects, list(posterior.labels), nodes._palette, gazetteer, posterior.gallery.cells)
 
 
 def test_what_the_text_says_is_not_asked(posterior, questions_asked):
@@ -336,14 +334,7 @@ def test_who_has_begun_to_reply_is_asked_until_the_place_is_good(localizer):
 
 
 def test_the_middle_of_a_cell_is_the_node_nearest_to_its_centre(posterior) -> None:
-    given = (
-        posterior.nodes.nearby_objects,
-        list(posterior.labels),
-        posterior.nodes._palette,
-        EMPTY_GAZETTEER,
-        posterior.gallery.cells,
-    )
-    once = Questions(*given)._middle_nodes
+    once = questions_about(posterior, EMPTY_GAZETTEER)._middle_nodes
     surroundings, centers = posterior.surroundings, posterior.gallery.cells.center_m[:, :2]
     owner = surroundings.owner(once)
     apart = np.hypot(*(surroundings.positions_m(once) - centers[owner]).T)
