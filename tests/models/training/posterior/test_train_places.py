@@ -6,6 +6,7 @@ import torch
 from models.posterior.model import load_posterior
 from models.training.posterior import train_places as train_places_module
 from models.training.posterior.train_places import train_places
+from tests.models.training.in_process import InProcess
 
 TEXTS = {
     "I'm at East Street 2 and North Path 3": (60.00215, 25.0032),
@@ -17,7 +18,8 @@ TEXTS = {
 
 @pytest.mark.slow
 def test_readers_and_kernels_are_trained_and_saved(osm_file, tmp_path, monkeypatch) -> None:
-    """Three readers in three processes, one of them for what answers; the kernels are fitted to the texts."""
+    """Three readers, one of them for what answers; the kernels are fitted to the texts."""
+    monkeypatch.setattr(train_places_module, "ProcessPoolExecutor", InProcess)
     monkeypatch.setattr(train_places_module, "LABELLED_DIR", tmp_path)
     monkeypatch.setattr(train_places_module, "EPOCHS", 1)
     mention = {"start": 0, "end": 5, "form": "thing", "relation": "seen", "angle": 90}
@@ -34,7 +36,7 @@ def test_readers_and_kernels_are_trained_and_saved(osm_file, tmp_path, monkeypat
     done: list[tuple[str, int, int, float]] = []
     figures = train_places([(osm_file, [texts])], None, out, 2, 0, lambda *row: done.append(row))
     assert 0.0 <= figures["angle_right"] <= 1.0
-    assert [row[1:3] for row in done if row[0].startswith("train cue readers")] == [(1, 3), (2, 3), (3, 3)]
+    assert [row[1:3] for row in done if row[0] == "train cue readers"] == [(1, 3), (2, 3), (3, 3)]
     before, after = load_posterior(), load_posterior(out)
     assert not torch.equal(before.places.scale, after.places.scale)
     assert not torch.equal(before.cues.head[0].weight, after.cues.head[0].weight)
