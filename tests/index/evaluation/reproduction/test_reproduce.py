@@ -12,6 +12,7 @@ from index.evaluation.reproduction.reproduce import choose_experiments, scale_in
 from models.errors import DataError
 from models.paper import point_encoder
 from models.sources.source import open_source
+from models.training.engine import run_dir
 from models.training.experiments import (
     POINTS,
     Experiment,
@@ -43,6 +44,7 @@ def here(work, tasks, workers):
 @pytest.fixture
 def small(monkeypatch):
     monkeypatch.setattr(module, "_run_in_processes", here)
+    monkeypatch.setattr(run_dir, "_curves", lambda *_: b"")  # test_loop.py has them drawn
     monkeypatch.setattr(point_encoder, "_LEVELS", ((8, 0.2, 4, (32, 64)), (4, 0.4, 4, (64, 128))))
     threads = torch.get_num_threads()
     yield
