@@ -63,7 +63,7 @@ def test_hints_about_the_nearest_things_are_true(source, data_and_queries):
 def test_retriever_and_posterior_stand_side_by_side(source, data_and_queries, model, text_encoder):
     torch.manual_seed(0)
     data, queries = data_and_queries
-    rows = np.arange(0, len(queries), max(1, len(queries) // 3))
+    rows = np.arange(0, len(queries), max(1, len(queries) // 2))
     subset = queries.take(rows)
     ranker = Ranker.from_cells(model, data.cells, data.gallery.labels)
     untrained = PosteriorModel(text_encoder, PosteriorConfig(width=32)).eval()
