@@ -55,8 +55,9 @@ test: install  ## run the whole test suite
 test-fast: install  ## run the quick tests of every package
 	$(PYTEST) -m 'not slow'
 
-fuzz: install  ## fuzz the HTTP API for much longer than the test suite does
-	FUZZ_EXAMPLES=2000 FUZZ_MUTATIONS=10000 $(PYTEST) tests/app/http/test_contract.py tests/app/http/test_mutations.py
+fuzz: install  ## fuzz the HTTP API and the pickle reader for much longer than the test suite does
+	FUZZ_EXAMPLES=2000 FUZZ_MUTATIONS=10000 $(PYTEST) tests/app/http/test_contract.py tests/app/http/test_mutations.py \
+		tests/models/sources/kitti360pose/test_pickle.py
 
 load: install  ## measure throughput and overload behaviour (needs an idle machine)
 	$(BIN)/python -m tests.load.load --index $(INDEX)
