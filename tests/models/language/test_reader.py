@@ -196,7 +196,7 @@ def test_a_binding_reads_what_was_noticed(matcher):
     assert reading.colour[0].argmax() == colour_words(KITTI360_PALETTE).index("gray")
     assert reading.distance_m[0] == 4.0
     assert reading.distance_m[1].isnan()
-    assert binding.nothing().label.shape == (1, len(KITTI))
+    assert binding.uninformative_hint().label.shape == (1, len(KITTI))
 
 
 def test_layers_that_were_packed_are_forgotten_in_training(reader, text_encoder) -> None:
