@@ -62,7 +62,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 @pytest.fixture(scope="session", autouse=True)
 def _own_cache(tmp_path_factory):
-    """What is made of sentences and points is cached here and not in the home directory, for all processes of a run."""
+    """Cache features of sentences and points here, not in the home directory, for all processes of a run."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("HEREABOUTS_CACHE_DIR", str(_of_the_run(tmp_path_factory) / "cache"))
         yield

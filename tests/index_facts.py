@@ -1,4 +1,4 @@
-"""What is said of an index that is the same whoever built it."""
+"""Facts about an index that do not depend on who built it."""
 
 from index.build.artifact import open_version
 

@@ -12,7 +12,7 @@ Document = dict[str, Any]
 
 
 def kustomization(layer: str) -> Document:
-    """What a layer says of itself."""
+    """Return the kustomization of a layer."""
     loaded: Document = yaml.safe_load((ROOT / layer / "kustomization.yaml").read_text())
     return loaded
 
@@ -48,7 +48,7 @@ def _patched(documents: list[Document], patch: list[Document], target: Document)
 
 
 def name(document: Document) -> str:
-    """What it is called."""
+    """Return its name."""
     called: str = document["metadata"]["name"]
     return called
 

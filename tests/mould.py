@@ -193,7 +193,7 @@ class _Forks:
 
 
 def _open_fakes(order, _count):
-    """What answers from a version that is whole."""
+    """Open a fake localizer on a complete version."""
     from index.build.artifact import open_version
     from tests.app.fake_localizer import FakeLocalizer
 

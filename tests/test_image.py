@@ -150,7 +150,7 @@ class Confined:
         return self.start(words, **variables).wait(120)
 
     def lines(self) -> list[dict[str, Any]]:
-        """What a service has logged."""
+        """Return the lines that a service has logged."""
         return [json.loads(line) for line in self.log.read_text().splitlines(keepends=True) if line.endswith("\n")]
 
 

@@ -1,4 +1,4 @@
-"""What `pip install .` takes along: everything that runs."""
+"""Tests that `pip install .` installs everything that runs."""
 
 import os
 import subprocess
@@ -39,7 +39,7 @@ def test_the_public_localizer_is_that_of_the_service() -> None:
 
 
 def _printed(code: str) -> str:
-    """What Python prints where the public package is on the path, as after an installation."""
+    """Return the output of Python with the public package on its path, as after an installation."""
     place = ROOT / "app" / "public"
     run = subprocess.run([sys.executable, "-c", code], cwd=place, env=ENV, capture_output=True, check=True, text=True)
     return run.stdout.strip()

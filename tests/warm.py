@@ -53,7 +53,7 @@ class Warm:
         assert self._process.stdout.readline(), (scratch / "warm.log").read_text()
 
     def command(self, module: str) -> tuple[str, ...]:
-        """What to start instead of `python -m MODULE`, with one argument."""
+        """Starts in place of `python -m MODULE`, with one argument."""
         return (sys.executable, "-I", "-S", "-c", STARTER, str(self._socket), module)
 
     def close(self) -> None:

@@ -60,10 +60,10 @@ def shake(operation, kills, rng):
     operation.check(operation.do())
     for _ in range(kills):
         operation.prepare()
-        before = place.spooled_zeros()
+        before = place.state_on_disk()
         acknowledged = operation.do(LATEST * math.sqrt(rng.random()))
         place.end()
-        counts["after" if acknowledged else "during" if place.spooled_zeros() != before else "before"] += 1
+        counts["after" if acknowledged else "during" if place.state_on_disk() != before else "before"] += 1
         place.start()
         operation.check(acknowledged)
     return {"kills": kills, **counts, "takes_ms": round(1000 * operation.takes_s, 1)}

@@ -1,4 +1,4 @@
-"""What `chaos` kills: an index directory with a service on it, and all that writes there.
+"""The index directory and the service that `chaos` kills, with everything that writes there.
 
 An operation is prepared, done, killed meanwhile or not, and checked once the service was started again.
 """
@@ -74,7 +74,7 @@ class Place:
             self.mould.wait(self.pid)
 
     def post(self, path, body, kill_after_s):
-        """What was acknowledged; None if the service was killed before."""
+        """Return the acknowledgement; None if the service was killed first."""
         try:
             with killing(self.pid, kill_after_s):
                 answer = self.mould.http.post(self.url + path, json=body)
@@ -91,8 +91,8 @@ class Place:
     def default(self):
         return read_aliases(self.root).aliases["default"]
 
-    def spooled_zeros(self):
-        """What would show that anything was done."""
+    def state_on_disk(self):
+        """Return the names of all files and the aliases: any change shows here."""
         names = [*self.root.rglob("*"), *self.jobs.iterdir()]
         return set(map(str, names)), (self.root / ALIASES_FILE).read_bytes()
 
@@ -130,7 +130,7 @@ class Operation:
         self.before = self.place.versions(), read_aliases(self.place.root)
 
     def do(self, share=None):
-        """What was acknowledged; None if the service was killed before.
+        """Return the acknowledgement; None if the service was killed first.
 
         Args:
             share: of the time that it takes, after which it is killed; None: it is not.

@@ -1,4 +1,4 @@
-"""What the service bears: run by `make load`, on idle CPUs. Starts it, and prints a line of JSON for each of
+"""Measure the load that the service bears (`make load`, on idle CPUs). Prints a line of JSON for each of
 
 1, 2, 32 clients, each asking as soon as it is answered (the last is the knee);
 3 times the knee, with GET /healthz beside it, and how soon a request is answered at once after that;
@@ -37,7 +37,7 @@ TURNS, TURN_S = 3, 20.0
 
 @dataclass
 class Figures:
-    """What came back, from the first request to the last answer."""
+    """Answers from the first request to the last."""
 
     seconds: float = 0.0
     statuses: Counter[int] = field(default_factory=Counter)
@@ -55,7 +55,7 @@ class Figures:
         return len(self.good_ms) / self.seconds
 
     def percentile_ms(self, percent: int) -> float:
-        """Of the answers that are good."""
+        """Return a percentile of the latency of good answers."""
         return quantiles(self.good_ms, n=100)[percent - 1]
 
     def shown(self) -> dict[str, Any]:
@@ -171,7 +171,7 @@ class Overload:
         self.health_ms += await health
 
     def bounds(self) -> dict[str, bool]:
-        """What is kept."""
+        """Return which bounds are kept."""
         return {
             "only 200, 429, 503": set(self.over.statuses) <= {200, 429, 503},
             "at least .9 of the knee answered": self.over.goodput >= 0.9 * self.knee.goodput,
@@ -181,12 +181,12 @@ class Overload:
 
     @property
     def health_p99_ms(self) -> float:
-        """Of GET /healthz."""
+        """Return the 99th percentile of GET /healthz."""
         return quantiles(self.health_ms, n=100)[98]
 
 
 async def measure(load: Load, url: str, seconds: float) -> bool:
-    """All of it; whether every bound is kept."""
+    """Measure everything; return whether every bound is kept."""
     is_kept = True
 
     def note(name: str, figures: Figures, bounds: dict[str, bool], **more: float) -> None:

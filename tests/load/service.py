@@ -1,4 +1,4 @@
-"""What the load scripts share: a service of their own on one index, and descriptions to ask it."""
+"""The parts that the load scripts share: a service on one index, and descriptions to send to it."""
 
 import os
 import random

@@ -27,8 +27,8 @@ def ask(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(tmp_path)
     (tmp_path / f"calls_{name}.py").write_text(CALLS.format(name=name))
 
-    def asked(**said):
-        (tmp_path / f"called_{name}.py").write_text(CALLED.format(**said))
+    def questions_put(**phrase):
+        (tmp_path / f"called_{name}.py").write_text(CALLED.format(**phrase))
         for module in (f"called_{name}", f"calls_{name}"):
             sys.modules.pop(module, None)
         importlib.invalidate_caches()
@@ -36,7 +36,7 @@ def ask(tmp_path, monkeypatch):
         function = importlib.import_module(f"calls_{name}").asked
         return function(10), sum(function.stats.cache_hits.values())
 
-    return asked
+    return questions_put
 
 
 def test_machine_code_is_kept_until_what_it_calls_or_takes_from_elsewhere_changes(ask, monkeypatch) -> None:

@@ -17,13 +17,13 @@ def parts(sizes):
     ]
 
 
-@pytest.mark.parametrize("held", [0, 40, 2**30])
+@pytest.mark.parametrize("stored", [0, 40, 2**30])
 @pytest.mark.parametrize("sizes", [[5], [0, 3, 0, 7], [0, 0]])
-def test_columns_are_those_of_the_parts_on_disk_or_not(held, sizes, monkeypatch) -> None:
-    monkeypatch.setattr(spool, "MAX_BYTES_IN_MEMORY", held)
-    found = spooled(iter(parts(sizes)))
-    assert set(found) == {"wide", "number"}
-    for name, column in found.items():
+def test_columns_are_those_of_the_parts_on_disk_or_not(stored, sizes, monkeypatch) -> None:
+    monkeypatch.setattr(spool, "MAX_BYTES_IN_MEMORY", stored)
+    result = spooled(iter(parts(sizes)))
+    assert set(result) == {"wide", "number"}
+    for name, column in result.items():
         expected = np.concatenate([part[name] for part in parts(sizes)])
         assert column.dtype == expected.dtype
         assert np.array_equal(column, expected)
@@ -35,10 +35,10 @@ def test_what_lies_on_disk_takes_no_memory_but_while_it_is_looked_at(monkeypatch
     monkeypatch.setattr(spool, "ROWS_PER_BLOCK", 20_000)
     with spooling_in(tmp_path):
         columns = spooled(parts([100_000] * 3))
-    seen = [(resident(tmp_path), some["wide"].sum(), len(some["number"])) for some in row_blocks(columns)]
-    assert sum(rows for _, _, rows in seen) == 300_000
-    assert max(kib for kib, _, _ in seen) < 500, "of 3.6 MB"
-    assert columns["wide"].sum() == pytest.approx(sum(total for _, total, _ in seen), abs=1)
+    visited = [(resident(tmp_path), subset["wide"].sum(), len(subset["number"])) for subset in row_blocks(columns)]
+    assert sum(rows for _, _, rows in visited) == 300_000
+    assert max(kib for kib, _, _ in visited) < 500, "of 3.6 MB"
+    assert columns["wide"].sum() == pytest.approx(sum(total for _, total, _ in visited), abs=1)
     assert resident(tmp_path) > 3000
     drop_pages()
     assert resident(tmp_path) == 0
@@ -46,34 +46,34 @@ def test_what_lies_on_disk_takes_no_memory_but_while_it_is_looked_at(monkeypatch
 
 def resident(directory: Path) -> int:
     """KiB of files of a directory that are in this process's memory."""
-    found, is_ours = 0, False
+    result, is_ours = 0, False
     for line in Path("/proc/self/smaps").read_text().splitlines():
         if not line.split(maxsplit=1)[0].endswith(":"):
             is_ours = str(directory) in line
         elif is_ours and line.startswith("Rss:"):
-            found += int(line.split()[1])
-    return found
+            result += int(line.split()[1])
+    return result
 
 
-@pytest.mark.parametrize("held", [1000, 2**30])
-def test_numbers_are_written_in_any_order(held, monkeypatch) -> None:
-    monkeypatch.setattr(spool, "MAX_BYTES_IN_MEMORY", held)
-    found = spooled_zeros(50_000, np.int32)
-    assert not found.any()
+@pytest.mark.parametrize("stored", [1000, 2**30])
+def test_numbers_are_written_in_any_order(stored, monkeypatch) -> None:
+    monkeypatch.setattr(spool, "MAX_BYTES_IN_MEMORY", stored)
+    result = spooled_zeros(50_000, np.int32)
+    assert not result.any()
     order = np.random.default_rng(0).permutation(50_000)
-    found[order] = np.arange(50_000)
+    result[order] = np.arange(50_000)
     drop_pages()
-    assert np.array_equal(found[order], np.arange(50_000)), "what was written stays when its pages go"
+    assert np.array_equal(result[order], np.arange(50_000)), "what was written stays when its pages go"
 
 
-@pytest.mark.parametrize("held", [1, 2**30])
+@pytest.mark.parametrize("stored", [1, 2**30])
 @pytest.mark.parametrize("sizes", [[], [3], [0, 2, 0, 5, 1, 0, 0, 4]])
-def test_runs_begin_where_those_before_them_end(held, sizes, monkeypatch) -> None:
-    monkeypatch.setattr(spool, "MAX_BYTES_IN_MEMORY", held)
+def test_runs_begin_where_those_before_them_end(stored, sizes, monkeypatch) -> None:
+    monkeypatch.setattr(spool, "MAX_BYTES_IN_MEMORY", stored)
     monkeypatch.setattr(spool, "ROWS_PER_BLOCK", 3)
-    found = starts_of(np.array(sizes, np.int16))
-    assert found.dtype == np.int32
-    assert found.tolist() == [sum(sizes[:n]) for n in range(len(sizes) + 1)]
+    result = starts_of(np.array(sizes, np.int16))
+    assert result.dtype == np.int32
+    assert result.tolist() == [sum(sizes[:n]) for n in range(len(sizes) + 1)]
 
 
 def test_more_rows_than_can_be_numbered_are_said() -> None:

@@ -90,9 +90,9 @@ NONE = [
 
 @pytest.mark.parametrize(("text", "metres"), IN_WORDS + IN_DIGITS + UNITS + PARTS + RANGES + LOOSE)
 def test_a_measure(text, metres) -> None:
-    [found] = find_measures(text)
-    assert found.metres == pytest.approx(metres)
-    assert 0 <= found.start < found.end <= len(text)
+    [result] = find_measures(text)
+    assert result.metres == pytest.approx(metres)
+    assert 0 <= result.start < result.end <= len(text)
 
 
 @pytest.mark.parametrize(("text", "_"), LOOSE)
@@ -111,15 +111,15 @@ def test_no_measure(text) -> None:
 
 
 def test_within_a_measure_of_something() -> None:
-    assert [found.metres for found in find_measures("we are within 20 metres of the bank")] == [20]
+    assert [result.metres for result in find_measures("we are within 20 metres of the bank")] == [20]
 
 
 def test_every_measure_stands_where_it_is_said() -> None:
     text = (
         "The bank is 1,200 feet ahead and the bus stop twenty five metres to my right, a few doors on, half a mile up."
     )
-    said = [text[found.start : found.end] for found in find_measures(text)]
-    assert said == ["1,200 feet", "twenty five metres", "a few doors", "half a mile"]
+    phrase = [text[result.start : result.end] for result in find_measures(text)]
+    assert phrase == ["1,200 feet", "twenty five metres", "a few doors", "half a mile"]
 
 
 @pytest.mark.parametrize(("text", "is_of"), [
@@ -128,7 +128,7 @@ def test_every_measure_stands_where_it_is_said() -> None:
     ("a foot away from the wall", True), ("a few steps from the bank", True),
 ])  # fmt: skip
 def test_what_a_measure_is_from(text, is_of) -> None:
-    assert [found.is_of for found in find_measures(text)] == [is_of]
+    assert [result.is_of for result in find_measures(text)] == [is_of]
 
 
 def in_words(number: int, hyphen: str, conjunction: str, one: str) -> str:
@@ -156,7 +156,7 @@ WRITTEN = st.tuples(
 @given(WRITTEN)
 def test_a_number_in_words_is_read_back(written) -> None:
     words = in_words(*written)
-    assert [(found.start, found.end, found.value) for found in find_numbers(words)] == [(0, len(words), written[0])]
+    assert [(result.start, result.end, result.value) for result in find_numbers(words)] == [(0, len(words), written[0])]
 
 
 @given(WRITTEN, st.sampled_from(["metres", "feet", "yards", "steps", "paces", "ft"]))
@@ -169,15 +169,15 @@ def test_a_measure_in_words_and_in_digits_is_the_same(written, unit) -> None:
 @given(st.integers(0, 999_999), st.integers(0, 9))
 def test_digits_are_read_back(number, tenths) -> None:
     for written in (f"{number}", f"{number:,}", f"{number:,}".replace(",", "\u202f")):
-        assert [found.value for found in find_numbers(written)] == [number]
-    assert [found.value for found in find_numbers(f"{number},{tenths}")] == [pytest.approx(number + tenths / 10)]
+        assert [result.value for result in find_numbers(written)] == [number]
+    assert [result.value for result in find_numbers(f"{number},{tenths}")] == [pytest.approx(number + tenths / 10)]
 
 
 @given(st.text(alphabet="0123456789 .,-/½½abhmndft'", max_size=40))
 def test_any_text_is_read(text) -> None:
-    for found in find_measures(text):
-        assert 0 <= found.start < found.end <= len(text)
-        assert 0 <= found.metres <= 1e5
+    for result in find_measures(text):
+        assert 0 <= result.start < result.end <= len(text)
+        assert 0 <= result.metres <= 1e5
 
 
 @pytest.mark.parametrize(("words", "degrees"), [
@@ -193,8 +193,8 @@ def test_compass_directions(words, degrees) -> None:
 
 
 def test_a_direction_of_something_is_told_from_one_alone() -> None:
-    found = find_bearings("north of the bank, and the bar is to the west")
-    assert [bearing.is_of for bearing in found] == [True, False]
+    result = find_bearings("north of the bank, and the bar is to the west")
+    assert [bearing.is_of for bearing in result] == [True, False]
 
 
 @given(st.integers(0, 7), st.floats(-22, 22), st.integers(-2, 2))
@@ -249,14 +249,14 @@ def named(text: str, *names: str) -> list[Named]:
 )
 def test_a_measure_belongs_to_what_is_nearest(text, metres) -> None:
     names = [name for name in ("bench", "pole") if name in text]
-    found = match_facts_to_spans(text, find_measures(text), named(text, *names))
-    assert {names[n]: measure.metres for n, measure in found.items()} == pytest.approx(metres)
+    result = match_facts_to_spans(text, find_measures(text), named(text, *names))
+    assert {names[n]: measure.metres for n, measure in result.items()} == pytest.approx(metres)
 
 
 def test_a_fact_belongs_to_one_and_not_to_what_it_is_a_part_of() -> None:
     text = "The 50 m pool and the bench are 20 m north."
-    found = match_facts_to_spans(text, find_measures(text), named(text, "50 m pool", "bench"))
-    assert {n: measure.metres for n, measure in found.items()} == {1: 20}
+    result = match_facts_to_spans(text, find_measures(text), named(text, "50 m pool", "bench"))
+    assert {n: measure.metres for n, measure in result.items()} == {1: 20}
     assert match_facts_to_spans("a yard off", [Measure(0, 6, 1.0)], [Named(2, 6)]) == {}, "its unit"
     assert match_facts_to_spans("x", [Measure(0, 1, 1.0)], [None]) == {}
     assert match_facts_to_spans("x y", [Bearing(0, 1, 1.0)], [Named(2, 3), Named(2, 3)]) == {0: Bearing(0, 1, 1.0)}

@@ -10,11 +10,11 @@ TEXT = "Two garages by the bridge, one gray and north, the other south. A tree i
 
 
 def things(text, words):
-    found, at = [], 0
+    result, position = [], 0
     for word in words:
-        at = text.index(word, at)
-        found.append(ParsedHint(word, at, at + len(word), torch.ones(10), torch.ones(16), 0.0, None))
-    return found
+        position = text.index(word, position)
+        result.append(ParsedHint(word, position, position + len(word), torch.ones(10), torch.ones(16), 0.0, None))
+    return result
 
 
 @pytest.mark.parametrize(
@@ -35,13 +35,13 @@ def things(text, words):
     ],
 )  # fmt: skip
 def test_hints_of_plurals_and_of_what_stands_for_them(text, words, kinds, nouns):
-    found = resolve(text, things(text, words), kinds)
-    assert [thing.noun for thing in found] == nouns
+    result = resolve(text, things(text, words), kinds)
+    assert [thing.noun for thing in result] == nouns
 
 
 def test_a_stand_in_keeps_its_own_place():
-    found = resolve(TEXT, things(TEXT, ["garages", "one"]), ["plural", "stand-in"])
-    assert [(thing.noun, TEXT[thing.start : thing.end]) for thing in found] == [("garages", "one")]
+    result = resolve(TEXT, things(TEXT, ["garages", "one"]), ["plural", "stand-in"])
+    assert [(thing.noun, TEXT[thing.start : thing.end]) for thing in result] == [("garages", "one")]
 
 
 NONE, GRAY, GREEN = torch.eye(16)[[15, 1, 5]]
@@ -49,7 +49,7 @@ NORTH, EAST, NEAR = torch.eye(10)[[0, 2, 9]]
 
 
 @pytest.mark.parametrize(
-    ("text", "said", "hints"),
+    ("text", "phrase", "hints"),
     [
         ("I see a house and a lamp. The house is north of me.",  # first what there is, then where
          [("house", EAST, GRAY), ("lamp", EAST, NONE), ("house", NORTH, NONE)],
@@ -82,13 +82,13 @@ NORTH, EAST, NEAR = torch.eye(10)[[0, 2, 9]]
          [("grass", NORTH, GREEN), ("line", NEAR, NONE), ("block of flats", NORTH, NONE)]),
     ],
 )  # fmt: skip
-def test_what_is_named_again_is_one_thing(text, said, hints):
-    found, at = [], 0
-    for noun, relation, colour in said:
-        at = text.index(noun, at)
-        found.append(ParsedHint(noun, at, at + len(noun), relation, colour, 0.0, None))
-        at += len(noun)
-    merged = resolve(text, found, ["noun"] * len(found))
+def test_what_is_named_again_is_one_thing(text, phrase, hints):
+    result, position = [], 0
+    for noun, relation, colour in phrase:
+        position = text.index(noun, position)
+        result.append(ParsedHint(noun, position, position + len(noun), relation, colour, 0.0, None))
+        position += len(noun)
+    merged = resolve(text, result, ["noun"] * len(result))
     assert [(t.noun, int(t.relation.argmax()), int(t.colour.argmax())) for t in merged] == [
         (noun, int(relation.argmax()), int(colour.argmax())) for noun, relation, colour in hints
     ]
@@ -96,6 +96,6 @@ def test_what_is_named_again_is_one_thing(text, said, hints):
 
 def test_what_is_measured_by_the_patch_keeps_its_distance():
     text = "10 m north of me is a patch of green grass"
-    found = things(text, ["patch", "grass"])
-    kept = resolve(text, [replace(found[0], measure=Measure(0, 4, 10.0)), found[1]], ["noun", "noun"])
-    assert [(thing.noun, thing.distance_m) for thing in kept] == [("grass", 10.0)]
+    result = things(text, ["patch", "grass"])
+    remaining = resolve(text, [replace(result[0], measure=Measure(0, 4, 10.0)), result[1]], ["noun", "noun"])
+    assert [(thing.noun, thing.distance_m) for thing in remaining] == [("grass", 10.0)]

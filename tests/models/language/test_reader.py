@@ -60,12 +60,12 @@ def test_padding_and_company_change_nothing(reader):
 
 
 def test_targets_mark_the_tokens_of_the_noun(text_encoder):
-    said = Wording("train").published([Fact("vending machine", "north", "gray"), Fact("lamp", "east")])
-    tokens, characters = text_encoder.read([said.text], 1)
-    tags, ranges = example_targets(said.mentions, characters[0], tokens.mask[0])
-    for mention, (a, b) in zip(said.mentions, ranges, strict=True):
+    phrase = Wording("train").published([Fact("vending machine", "north", "gray"), Fact("lamp", "east")])
+    tokens, characters = text_encoder.read([phrase.text], 1)
+    tags, ranges = example_targets(phrase.mentions, characters[0], tokens.mask[0])
+    for mention, (a, b) in zip(phrase.mentions, ranges, strict=True):
         start, end = int(characters[0, a, 0]), int(characters[0, b - 1, 1])
-        assert said.text[start:end] == mention.noun
+        assert phrase.text[start:end] == mention.noun
         assert [TAGS[tag] for tag in tags[a:b]] == ["noun"] + ["further"] * (b - a - 1)
     assert int((tags > 0).sum()) == sum(b - a for a, b in ranges)
 
@@ -101,8 +101,8 @@ def test_a_colour_is_wanted_only_where_it_is_said(text_encoder):
     texts = ReadingSet(text_encoder, 1, "train", 40, 0)
     wanted = iter(texts.batch(range(len(texts))).colour.tolist())
     unsaid = 0
-    for facts, said in zip(texts.facts, texts.texts, strict=True):
-        for mention in said.mentions:
+    for facts, phrase in zip(texts.facts, texts.texts, strict=True):
+        for mention in phrase.mentions:
             if mention.facts:
                 colour = facts[mention.facts[0]].colour
                 assert next(wanted) == (COLOURS.index(colour) if mention.coloured else len(COLOURS))
@@ -163,12 +163,12 @@ def test_a_label_fits_as_well_as_all_its_names_together(matcher):
 def test_nouns_find_their_label(matcher):
     with torch.no_grad():
         bound = matcher.bind(KITTI)
-        found = matcher(
+        result = matcher(
             matcher.embed(["streetlight", "garbage can", "house", "office building", "lawn", "giraffe"]), bound
         )
-    assert torch.allclose(found.exp().sum(dim=1), torch.ones(6), atol=1e-4)
+    assert torch.allclose(result.exp().sum(dim=1), torch.ones(6), atol=1e-4)
     names = [*KITTI, None]
-    assert [names[i] for i in found.argmax(dim=1)] == ["lamp", "trash bin", "building", "building", "terrain", None]
+    assert [names[i] for i in result.argmax(dim=1)] == ["lamp", "trash bin", "building", "building", "terrain", None]
 
 
 @pytest.mark.parametrize("palette", [KITTI360_PALETTE, BASIC_PALETTE])

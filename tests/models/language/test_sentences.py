@@ -70,10 +70,10 @@ def test_every_template_renders() -> None:
 def test_parts_of_what_is_read_are_found_in_the_text(description) -> None:
     text = " ".join(split_for_reader(description, 800))
     spans = [match.span() for match in re.finditer(r"[Aa] building|north|east", text)]
-    found = [span for span in locate_spans(description, text, spans[::-1])[::-1] if span]
-    assert [description[slice(*span)] for span in found] == [text[slice(*span)] for span in spans]
-    assert found == sorted(found)
-    assert len(set(found)) == len(spans), "a second building is not the first one again"
+    result = [span for span in locate_spans(description, text, spans[::-1])[::-1] if span]
+    assert [description[slice(*span)] for span in result] == [text[slice(*span)] for span in spans]
+    assert result == sorted(result)
+    assert len(set(result)) == len(spans), "a second building is not the first one again"
 
 
 def test_what_does_not_stand_in_the_text_has_no_place() -> None:
@@ -83,5 +83,5 @@ def test_what_does_not_stand_in_the_text_has_no_place() -> None:
 def test_a_list_with_wide_bullets_does_not_lose_its_place() -> None:
     description = "\n".join("        -        a tree" for _ in range(12))
     text = " ".join(split_for_reader(description, 800))
-    found = locate_spans(description, text, [match.span() for match in re.finditer("tree", text)])
-    assert found == [match.span() for match in re.finditer("tree", description)]
+    result = locate_spans(description, text, [match.span() for match in re.finditer("tree", text)])
+    assert result == [match.span() for match in re.finditer("tree", description)]

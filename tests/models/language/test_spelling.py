@@ -10,7 +10,7 @@ def spelling(text_encoder):
 
 
 @pytest.mark.parametrize(
-    ("said", "meant"),
+    ("phrase", "meant"),
     [
         ("trafic light", "traffic light"),
         ("teelphone booth", "telephone booth"),
@@ -22,5 +22,5 @@ def spelling(text_encoder):
         ("xylophonist", "xylophonist"),
     ],
 )
-def test_what_is_no_word_is_mended(spelling, said, meant):
-    assert spelling.correct(said) == meant
+def test_what_is_no_word_is_mended(spelling, phrase, meant):
+    assert spelling.correct(phrase) == meant

@@ -51,9 +51,9 @@ def test_minilm_is_what_transformers_make_of_its_files(text_encoder) -> None:
         expected = AutoModel.from_pretrained(path)(input_ids=ids, attention_mask=mask).last_hidden_state
         plain = run_layers(text_encoder.layers(0, 6), text_encoder.model.embeddings(ids), mask.bool())
     assert torch.allclose(plain * mask[..., None], expected * mask[..., None], atol=1e-5)
-    found = text_encoder(texts)
-    assert found.ids.tolist() == ids.tolist()
-    assert alike(found.values[mask.bool()], expected[mask.bool()]) > 0.98, "but for 8 bits"
+    result = text_encoder(texts)
+    assert result.ids.tolist() == ids.tolist()
+    assert alike(result.values[mask.bool()], expected[mask.bool()]) > 0.98, "but for 8 bits"
 
 
 def alike(first, second) -> float:
@@ -69,17 +69,17 @@ def test_packed_layers_are_the_same_layers(text_encoder, lengths) -> None:
     mask = torch.arange(max(lengths)) < torch.tensor(lengths)[:, None]
     with torch.no_grad():
         expected = run_layers(layers, hidden, mask)
-        found = run_int8_layers([Int8Layer(layer) for layer in layers], hidden, mask)
-    assert alike(found[mask], expected[mask]) > 0.995
+        result = run_int8_layers([Int8Layer(layer) for layer in layers], hidden, mask)
+    assert alike(result[mask], expected[mask]) > 0.995
 
 
 def test_embeddings_in_8_bits(text_encoder) -> None:
     ids = torch.randint(1000, 20_000, (3, 9))
     with torch.no_grad():
         expected = text_encoder.model.embeddings(ids)
-        found = Int8Embeddings(text_encoder.model.embeddings)(ids)
-    assert alike(found.flatten(0, 1), expected.flatten(0, 1)) > 0.999
-    assert not found.equal(expected)
+        result = Int8Embeddings(text_encoder.model.embeddings)(ids)
+    assert alike(result.flatten(0, 1), expected.flatten(0, 1)) > 0.999
+    assert not result.equal(expected)
 
 
 def test_dropped_weights_are_read_again(text_encoder) -> None:
@@ -103,9 +103,9 @@ def test_layers_with_weights_of_others(text_encoder) -> None:
     first, second = text_encoder.layers(0, 2)
     x = torch.randn(9, 384)
     with torch.no_grad():
-        found = Int8Layer(first, dict(second.named_parameters()))(x, torch.Size((1, 9, 384)), None)
-        assert alike(found, second(x[None], None)[0]) > 0.999
-        assert alike(found, first(x[None], None)[0]) < 0.99
+        result = Int8Layer(first, dict(second.named_parameters()))(x, torch.Size((1, 9, 384)), None)
+        assert alike(result, second(x[None], None)[0]) > 0.999
+        assert alike(result, first(x[None], None)[0]) < 0.99
 
 
 @pytest.mark.parametrize(
@@ -116,12 +116,12 @@ def test_a_linear_layer_in_8_bits(has_int8_products) -> None:
     torch.manual_seed(0)
     weight, bias, x = torch.randn(5, 1536), torch.randn(5), torch.randn(9, 1536)
     weight[0], x[0], x[1], x[2] = 1.0, 1.0, -1.0, 0.0  # the largest sums there are, and none
-    found = Int8Linear(weight, bias, has_int8_products)(x)
+    result = Int8Linear(weight, bias, has_int8_products)(x)
     expected = torch.nn.functional.linear(x, weight, bias)
-    assert torch.allclose(found[:3, 0], expected[:3, 0], rtol=1e-6)
-    assert (found[2] == bias).all()
-    assert (found - expected).abs().max() < 0.03 * expected.std(), "a 254th of the largest, for each of 1,536"
-    assert torch.equal(Int8Linear(weight, bias, has_int8_products)(x[3:4]), found[3:4]), "no row changes another"
+    assert torch.allclose(result[:3, 0], expected[:3, 0], rtol=1e-6)
+    assert (result[2] == bias).all()
+    assert (result - expected).abs().max() < 0.03 * expected.std(), "a 254th of the largest, for each of 1,536"
+    assert torch.equal(Int8Linear(weight, bias, has_int8_products)(x[3:4]), result[3:4]), "no row changes another"
 
 
 def test_rows_in_8_bits() -> None:

@@ -92,13 +92,13 @@ def wording_of(monkeypatch):
 
 def test_mentions_know_what_they_stand_for_and_whether_the_colour_is_said(wording_of) -> None:
     wording = wording_of("Two {ns12}: {1:one} {c1} and {o1}, {2:the other} {o2}; {theb3} is {o3}.")
-    said = wording.write(FACTS, Plain(), noise=False)
-    assert said.text.startswith("Two lamps: one black and ")
-    kinds = [(m.kind, m.facts, m.coloured) for m in said.mentions[:4]]
+    spoken = wording.write(FACTS, Plain(), noise=False)
+    assert spoken.text.startswith("Two lamps: one black and ")
+    kinds = [(m.kind, m.facts, m.coloured) for m in spoken.mentions[:4]]
     assert kinds == [
         ("plural", (), False), ("stand-in", (0,), True), ("stand-in", (2,), False), ("noun", (3,), False)
     ]  # fmt: skip
-    assert [said.text[m.start : m.end] for m in said.mentions][1:3] == ["one", "the other"]
+    assert [spoken.text[m.start : m.end] for m in spoken.mentions][1:3] == ["one", "the other"]
     both = wording_of("two {c12} {ns12} to my {o12}").write([FACTS[0]] * 2, Plain(), noise=False)
     assert [(m.kind, m.facts, m.coloured) for m in both.mentions] == [("plural", (0, 1), True)]
     apart = [FACTS[0], Fact("lamp", "north", "gray")]
@@ -127,9 +127,9 @@ def test_a_whole_description_tells_its_facts() -> None:
     wording, rng = Wording("train"), np.random.default_rng(0)
     drawn = [Fact("lamp", wind) for wind in COMPASS]
     for _ in range(50):
-        facts, said = wording.whole(drawn, rng)
+        facts, spoken = wording.whole(drawn, rng)
         assert len(facts) >= 4
-        assert sorted(n for m in said.mentions for n in m.facts) == list(range(len(facts)))
+        assert sorted(n for m in spoken.mentions for n in m.facts) == list(range(len(facts)))
 
 
 @pytest.mark.parametrize(

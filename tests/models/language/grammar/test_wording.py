@@ -33,20 +33,20 @@ FACTS = [
 def test_every_fact_is_mentioned_once_and_where_it_says(grammar) -> None:
     wording = Wording(grammar)
     for seed in range(40):
-        said = wording.write(FACTS, np.random.default_rng(seed), noise=seed % 2 == 0)
-        assert sorted(n for m in said.mentions for n in m.facts) == list(range(len(FACTS)))
-        for mention in said.mentions:
-            assert 0 <= mention.start < mention.end <= len(said.text)
+        spoken = wording.write(FACTS, np.random.default_rng(seed), noise=seed % 2 == 0)
+        assert sorted(n for m in spoken.mentions for n in m.facts) == list(range(len(FACTS)))
+        for mention in spoken.mentions:
+            assert 0 <= mention.start < mention.end <= len(spoken.text)
             if seed % 2:
-                assert said.text[mention.start : mention.end].lower() == mention.noun.lower()
-        assert "{" not in said.text
+                assert spoken.text[mention.start : mention.end].lower() == mention.noun.lower()
+        assert "{" not in spoken.text
 
 
 @pytest.mark.parametrize("grammar", GRAMMARS)
 def test_the_distance_and_the_name_are_said(grammar) -> None:
-    said = Wording(grammar).write(FACTS, np.random.default_rng(1), noise=False)
-    assert "12" in said.text
-    assert "Stockmann" in said.text
+    spoken = Wording(grammar).write(FACTS, np.random.default_rng(1), noise=False)
+    assert "12" in spoken.text
+    assert "Stockmann" in spoken.text
 
 
 @pytest.mark.parametrize("grammar", GRAMMARS)
@@ -70,8 +70,8 @@ def test_each_kind_says_what_it_is_for(grammar) -> None:
     }  # fmt: skip
     for table, numbers in directed.items():
         for phrase in load_grammar(grammar).phrases.get(table, ()):
-            said = {number if table != "two_same" else "" for number in re.findall(r"\{[do](\d?)\}", phrase)}
-            assert said == set(numbers), (table, phrase)
+            spoken = {number if table != "two_same" else "" for number in re.findall(r"\{[do](\d?)\}", phrase)}
+            assert spoken == set(numbers), (table, phrase)
 
 
 def test_validation_and_test_share_nothing_with_training() -> None:
@@ -119,19 +119,19 @@ def test_all_grammars_can_say_all_directions_and_kitti_classes() -> None:
 
 
 def test_the_published_wording_is_the_benchmarks() -> None:
-    said = Wording("train").published([Fact("pole", "north", "gray"), Fact("stop", "on-top")])
-    assert said.text == "The pose is north of a gray pole. The pose is on-top of a stop."
-    assert [said.text[m.start : m.end] for m in said.mentions] == ["pole", "stop"]
+    spoken = Wording("train").published([Fact("pole", "north", "gray"), Fact("stop", "on-top")])
+    assert spoken.text == "The pose is north of a gray pole. The pose is on-top of a stop."
+    assert [spoken.text[m.start : m.end] for m in spoken.mentions] == ["pole", "stop"]
 
 
 def test_typos_move_the_mentions_along() -> None:
-    said = Wording("val").write(FACTS, np.random.default_rng(3), noise=False)
-    spoiled = typos(said, 12, np.random.default_rng(4))
-    assert spoiled.text != said.text
-    for before, after in zip(said.mentions, spoiled.mentions, strict=True):
-        noun, found = said.text[before.start : before.end], spoiled.text[after.start : after.end]
-        assert abs(len(noun) - len(found)) <= 12
-        assert set(found) & set(noun)
+    spoken = Wording("val").write(FACTS, np.random.default_rng(3), noise=False)
+    spoiled = typos(spoken, 12, np.random.default_rng(4))
+    assert spoiled.text != spoken.text
+    for before, after in zip(spoken.mentions, spoiled.mentions, strict=True):
+        noun, result = spoken.text[before.start : before.end], spoiled.text[after.start : after.end]
+        assert abs(len(noun) - len(result)) <= 12
+        assert set(result) & set(noun)
 
 
 def test_opposites() -> None:

@@ -1,4 +1,4 @@
-"""What is said of one thing and cannot all be true."""
+"""Tests of statements about one object that contradict each other."""
 
 from dataclasses import replace
 
@@ -22,18 +22,18 @@ def in_the(mention: Mention, wind: float) -> Mention:
 
 
 def test_left_and_right_of_one_thing_contradict() -> None:
-    [said] = contradictions([at_angle(MUSEUM, -90.0), STREET, at_angle(MUSEUM, 90.0)])
-    assert said == "'the Museum': on the left and on the right are both said, but cannot both be true"
+    [phrase] = contradictions([at_angle(MUSEUM, -90.0), STREET, at_angle(MUSEUM, 90.0)])
+    assert phrase == "'the Museum': on the left and on the right are both said, but cannot both be true"
 
 
 def test_both_sides_of_a_street_contradict() -> None:
-    [said] = contradictions([replace(STREET, side=0.0), replace(STREET, side=180.0)])
-    assert "its north side and its south side" in said
+    [phrase] = contradictions([replace(STREET, side=0.0), replace(STREET, side=180.0)])
+    assert "its north side and its south side" in phrase
 
 
 def test_north_and_south_of_one_thing_contradict() -> None:
-    [said] = contradictions([in_the(MUSEUM, 180.0), in_the(MUSEUM, 0.0)])
-    assert "in the south and in the north" in said
+    [phrase] = contradictions([in_the(MUSEUM, 180.0), in_the(MUSEUM, 0.0)])
+    assert "in the south and in the north" in phrase
 
 
 @pytest.mark.parametrize(

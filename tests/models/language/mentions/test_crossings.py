@@ -12,7 +12,7 @@ def of_form(text: str, lookup, cues, form: str) -> Mention:
 
 
 @pytest.mark.parametrize(
-    ("text", "at"),
+    ("text", "position"),
     [
         ("I'm at 25th and 10th.", (200, 80)),
         ("10th Ave at West 25th", (200, 80)),
@@ -23,9 +23,9 @@ def of_form(text: str, lookup, cues, form: str) -> Mention:
         ("I stand on 25th street at the corner of 9th", (400, 80)),
     ],
 )
-def test_corners(lookup, cues, text, at) -> None:
+def test_corners(lookup, cues, text, position) -> None:
     corner = of_form(text, lookup, cues, "corner")
-    assert corner.lines_m.tolist() == [[*at, *at]]
+    assert corner.lines_m.tolist() == [[*position, *position]]
     assert corner.weights.shape == (1,)
     assert corner.cue.relation == "at"
     assert corner.is_exact
@@ -37,21 +37,21 @@ def test_a_slash_joins_streets(lookup, cues) -> None:
 
 
 def test_streets_that_never_meet_stay_streets(town, lookup, cues) -> None:
-    found = find_mentions("Harlem Road and 25th Street", lookup, cues)
-    assert sorted(m.form for m in found) == ["street", "street", "unknown"], "that they meet is not found"
-    streets = [called(town, m.objects) for m in found if m.form == "street"]
+    result = find_mentions("Harlem Road and 25th Street", lookup, cues)
+    assert sorted(m.form for m in result) == ["street", "street", "unknown"], "that they meet is not found"
+    streets = [called(town, m.objects) for m in result if m.form == "street"]
     assert streets == [{"Harlem Road"}, {"West 25th Street"}]
 
 
 def test_streets_in_two_sentences_are_no_corner(lookup, cues) -> None:
-    found = find_mentions("I am on 25th Street. There is a bench. I came from 10th Avenue.", lookup, cues)
-    assert [m.form for m in found] == ["street", "thing", "street"]
+    result = find_mentions("I am on 25th Street. There is a bench. I came from 10th Avenue.", lookup, cues)
+    assert [m.form for m in result] == ["street", "thing", "street"]
 
 
 def test_near_a_corner_is_on_the_street_too(lookup, cues) -> None:
-    found = find_mentions("on 25th just past 10th", lookup, cues)
-    assert sorted(m.form for m in found) == ["corner", "street"]
-    assert next(m for m in found if m.form == "corner").cue.relation == "near"
+    result = find_mentions("on 25th just past 10th", lookup, cues)
+    assert sorted(m.form for m in result) == ["corner", "street"]
+    assert next(m for m in result if m.form == "corner").cue.relation == "near"
 
 
 @pytest.mark.parametrize(
@@ -78,8 +78,8 @@ def test_a_span_of_no_said_street_is_of_any(lookup, cues) -> None:
 
 
 def test_between_two_streets_that_share_no_street_is_no_span(lookup, cues) -> None:
-    found = find_mentions("between Harlem Road and 10th", lookup, cues)
-    assert "span" not in [m.form for m in found]
+    result = find_mentions("between Harlem Road and 10th", lookup, cues)
+    assert "span" not in [m.form for m in result]
 
 
 @pytest.mark.parametrize(

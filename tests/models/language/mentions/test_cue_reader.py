@@ -6,7 +6,7 @@ from models.training.posterior.fit_cues import accuracy
 
 
 def angles(cues: CueReader, text: str, *things: str) -> list[float | None]:
-    """Of things in a text."""
+    """Return the angles of objects in a text."""
     places = [(text.index(thing), text.index(thing) + len(thing), "thing") for thing in things]
     return [read.angle for read in cues.read(text, places)]
 
@@ -45,7 +45,7 @@ def test_an_angle_that_is_not_sure_is_several(cues) -> None:
 def test_mentions_of_a_long_text_are_all_read(cues) -> None:
     text = ("The bank is on my left. " + "I wait for you here, it is cold. " * 24) * 3
     assert len(text) > 2 * MAX_CHARACTERS
-    starts = [at for at in range(len(text)) if text.startswith("bank", at)]
+    starts = [position for position in range(len(text)) if text.startswith("bank", position)]
     read = cues.read(text, [(start, start + 4, "thing") for start in starts])
     assert [cue.angle for cue in read] == [-90] * 3
 

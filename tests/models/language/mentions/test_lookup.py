@@ -41,9 +41,9 @@ def test_a_telling_part_of_a_name(town, lookup, part, whole) -> None:
     assert (match.weights < 1).all()
 
 
-@pytest.mark.parametrize("said", ["Rossi Pizzeria", "Nobodys", "of the", "&", ""])
-def test_words_that_are_in_no_name(lookup, said) -> None:
-    assert lookup.named(words(said)) is None
+@pytest.mark.parametrize("phrase", ["Rossi Pizzeria", "Nobodys", "of the", "&", ""])
+def test_words_that_are_in_no_name(lookup, phrase) -> None:
+    assert lookup.named(words(phrase)) is None
 
 
 @pytest.mark.parametrize(
@@ -57,12 +57,12 @@ def test_misspelt_names(town, lookup, wrong, right) -> None:
     assert not match.is_exact
 
 
-@pytest.mark.parametrize("said", ["elm", "the house", "bottle inn", "zzzzzzz"])
-def test_short_common_and_other_words_are_no_misspelt_names(lookup, said) -> None:
-    assert lookup.misspelt(words(said)) is None
+@pytest.mark.parametrize("phrase", ["elm", "the house", "bottle inn", "zzzzzzz"])
+def test_short_common_and_other_words_are_no_misspelt_names(lookup, phrase) -> None:
+    assert lookup.misspelt(words(phrase)) is None
 
 
-@pytest.mark.parametrize(("said", "name", "exact"), [
+@pytest.mark.parametrize(("phrase", "name", "exact"), [
     ("West 25th Street", "West 25th Street", True),
     ("w 25th st", "West 25th Street", True),
     ("25th street", "West 25th Street", False),
@@ -70,8 +70,8 @@ def test_short_common_and_other_words_are_no_misspelt_names(lookup, said) -> Non
     ("tenth ave", "10th Avenue", True),
     ("harlem", "Harlem Road", False),
 ])  # fmt: skip
-def test_streets_in_all_their_forms(town, lookup, said, name, exact) -> None:
-    match = lookup.street(words(said))
+def test_streets_in_all_their_forms(town, lookup, phrase, name, exact) -> None:
+    match = lookup.street(words(phrase))
     assert called(town, match.objects) == {name}
     assert match.is_exact == exact
 
@@ -133,12 +133,12 @@ def test_a_house_number_is_its_object(town, lookup, number) -> None:
 
 
 @pytest.mark.parametrize(
-    ("number", "at"), [("430", (300, 95)), ("420", (325, 95)), ("425", (320, 65)), ("430b", (300, 95))]
+    ("number", "start"), [("430", (300, 95)), ("420", (325, 95)), ("425", (320, 65)), ("430b", (300, 95))]
 )
-def test_a_number_between_others_lies_between_them_on_its_side(lookup, number, at) -> None:
+def test_a_number_between_others_lies_between_them_on_its_side(lookup, number, start) -> None:
     objects, lines = lookup.address(number, lookup.street(("25th",)).objects)
     assert not len(objects)
-    assert lines == pytest.approx(np.array([[*at, *at]]))
+    assert lines == pytest.approx(np.array([[*start, *start]]))
 
 
 @pytest.mark.parametrize("number", ["2", "900", "399", "451", "99999"])
@@ -149,15 +149,15 @@ def test_a_number_past_the_end_of_the_street_is_nowhere(lookup, number) -> None:
 
 
 def test_a_street_without_numbers(lookup) -> None:
-    assert [len(some) for some in lookup.address("430", lookup.street(("24th",)).objects)] == [0, 0]
+    assert [len(subset) for subset in lookup.address("430", lookup.street(("24th",)).objects)] == [0, 0]
 
 
 def numbers(*given: str) -> Lookup:
-    some = [GazetteerObject((ADDRESS_KIND,), (), number, "Main St") for number in given] + [
+    subset = [GazetteerObject((ADDRESS_KIND,), (), number, "Main St") for number in given] + [
         GazetteerObject((STREET_KIND,), ("Main Street",))
     ]
     shapes = [*(point(10.0 * n, 0) for n in range(len(given))), line((0, 0), (90, 0))]
-    return Lookup(build_gazetteer(some, shapes, [False] * len(some)), load_vocabulary(), is_common)
+    return Lookup(build_gazetteer(subset, shapes, [False] * len(subset)), load_vocabulary(), is_common)
 
 
 def test_several_numbers_of_one_house() -> None:
@@ -179,19 +179,19 @@ def test_a_map_without_names_knows_kinds_alone() -> None:
         assert lookup.misspelt(("bottino",)) is None
         assert lookup.street(("25th",)) is None
         assert lookup.street_like("broadway") is None
-        found = lookup.of_kinds(lookup.kinds(("bench",)))
-        assert (found is None) == (len(town) == 0)
+        result = lookup.of_kinds(lookup.kinds(("bench",)))
+        assert (result is None) == (len(town) == 0)
 
 
 @pytest.mark.parametrize(
-    ("text", "found"),
+    ("text", "result"),
     [("Kentucky Fried Chicken", [0]), ("Chicken", None), ("KFC", [0]), ("Mobile", None), ("Hotel", None)],
 )
-def test_a_chain_is_found_by_its_other_names(text, found) -> None:
+def test_a_chain_is_found_by_its_other_names(text, result) -> None:
     given = [GazetteerObject(("amenity/fast_food",), ("KFC",)), GazetteerObject(("amenity/fuel",), ("Mobil",))]
     shops = build_gazetteer(given, [np.zeros((1, 4)), np.ones((1, 4))], [False, False])
     match = Lookup(shops, load_vocabulary(), lambda word: word in ("mobile", "chicken")).named(words(text))
-    assert (match.objects.tolist() if match else None) == found
+    assert (match.objects.tolist() if match else None) == result
 
 
 def test_what_people_say_does_not_pile_up(lookup) -> None:

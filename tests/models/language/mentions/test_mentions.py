@@ -5,7 +5,7 @@ from models.language.mentions.mentions import Mention, add_cues
 from models.language.mentions.reader import find_mentions
 
 
-def said(text: str, cues: CueReader, *things: str) -> list[tuple[str, float | None]]:
+def phrase(text: str, cues: CueReader, *things: str) -> list[tuple[str, float | None]]:
     """(relation, angle) of things in a text."""
     mentions = [Mention(thing, text.index(thing), text.index(thing) + len(thing), "thing") for thing in things]
     return [(m.cue.relation, m.cue.angle) for m in add_cues(text, mentions, cues)]
@@ -34,8 +34,8 @@ MOST = 3  # of these
     ],
 )
 def test_words_go_to_the_thing_that_they_tell_of(cues, text, expected) -> None:
-    told = [(relation, angle if angle is None else pytest.approx(angle)) for relation, angle in expected]
-    right = [said(text.replace("AAA", one).replace("BBB", other), cues, one, other) == told for one, other in NAMES]
+    stated = [(relation, angle if angle is None else pytest.approx(angle)) for relation, angle in expected]
+    right = [phrase(text.replace("AAA", one).replace("BBB", other), cues, one, other) == stated for one, other in NAMES]
     assert sum(right) >= MOST, "a trained reader may stumble over a name"
 
 
@@ -71,9 +71,9 @@ def test_a_kind_named_again_is_the_same_thing(cues) -> None:
     right = 0
     for one, other in pairs:
         text = f"There is a {one} on my left. The {other} is a block east of the {one}."
-        at = [(one, text.index(one)), (other, text.index(other)), (one, text.rindex(one))]
-        mentions = [Mention(words, start, start + len(words), "thing") for words, start in at]
-        right += [m.start for m in add_cues(text, mentions, cues)] == [start for _, start in at[:2]]
+        position = [(one, text.index(one)), (other, text.index(other)), (one, text.rindex(one))]
+        mentions = [Mention(words, start, start + len(words), "thing") for words, start in position]
+        right += [m.start for m in add_cues(text, mentions, cues)] == [start for _, start in position[:2]]
     assert right >= len(pairs) - 1, "a trained reader may stumble over a word"
 
 
@@ -83,14 +83,14 @@ def test_who_is_named_again_is_left_out_before_it_is_read() -> None:
             return [ReadCue(None, (), "seen", has_wind=False, is_meant=True) for _ in places]
 
     text = "A cafe is near. A bakery is north of the cafe."
-    at = [("cafe", 2), ("bakery", 18), ("cafe", text.rindex("cafe"))]
-    mentions = [Mention(words, start, start + len(words), "thing") for words, start in at]
+    position = [("cafe", 2), ("bakery", 18), ("cafe", text.rindex("cafe"))]
+    mentions = [Mention(words, start, start + len(words), "thing") for words, start in position]
     assert [m.start for m in add_cues(text, mentions, Credulous())] == [2, 18]
 
 
 def test_another_of_a_kind_is_another(lookup, cues) -> None:
-    found = find_mentions("a bench on my left and a bench on my right", lookup, cues)
-    assert [m.cue.angle for m in found] == [pytest.approx(-90), pytest.approx(90)]
+    result = find_mentions("a bench on my left and a bench on my right", lookup, cues)
+    assert [m.cue.angle for m in result] == [pytest.approx(-90), pytest.approx(90)]
 
 
 def test_on_top_of_is_on(lookup, cues) -> None:
@@ -99,18 +99,18 @@ def test_on_top_of_is_on(lookup, cues) -> None:
 
 
 def test_each_wind_is_of_one_thing_and_not_of_another_sentence(lookup, cues) -> None:
-    found = find_mentions("I'm north of Bottino. Elmo is west of me.", lookup, cues)
-    assert {mention.text: mention.cue.wind for mention in found} == {"Bottino": 180, "Elmo": 270}
+    result = find_mentions("I'm north of Bottino. Elmo is west of me.", lookup, cues)
+    assert {mention.text: mention.cue.wind for mention in result} == {"Bottino": 180, "Elmo": 270}
 
 
 def test_a_kind_named_again_takes_no_part(lookup, cues) -> None:
-    found = find_mentions("Meet me at the bakery. Bottino is north of the bakery.", lookup, cues)
-    assert [mention.text for mention in found] == ["bakery", "Bottino"]
+    result = find_mentions("Meet me at the bakery. Bottino is north of the bakery.", lookup, cues)
+    assert [mention.text for mention in result] == ["bakery", "Bottino"]
 
 
 def test_a_distance_goes_to_what_it_stands_beside(lookup, cues) -> None:
-    found = find_mentions("Bottino is 30 m ahead, Elmo is behind me.", lookup, cues)
-    assert {mention.text: mention.cue.distance_m for mention in found} == {"Bottino": 30, "Elmo": None}
+    result = find_mentions("Bottino is 30 m ahead, Elmo is behind me.", lookup, cues)
+    assert {mention.text: mention.cue.distance_m for mention in result} == {"Bottino": 30, "Elmo": None}
 
 
 @pytest.mark.parametrize(
@@ -127,14 +127,14 @@ def test_a_distance_is_of_what_it_is_measured_from(lookup, cues, text, metres) -
 
 @pytest.mark.parametrize("measure", ["20 metres", "4 km", "410 paces", "twenty-five feet"])
 def test_a_measure_behind_a_street_is_no_house_number(lookup, cues, measure) -> None:
-    [found] = find_mentions(f"I'm on 25th Street {measure} up.", lookup, cues)
-    assert (found.form, found.text) == ("street", "25th Street")
+    [result] = find_mentions(f"I'm on 25th Street {measure} up.", lookup, cues)
+    assert (result.form, result.text) == ("street", "25th Street")
 
 
 def test_the_side_of_the_street_is_of_the_street_it_lies_on(lookup, cues) -> None:
     text = "I'm on 25th, at a bar that I have never seen before, with a friend of mine and two dogs. Bottino is near. "
-    found = find_mentions(text + "It's on the north side of the street.", lookup, cues)
-    assert {mention.text: mention.side for mention in found if mention.text in ("25th", "Bottino")} == {
+    result = find_mentions(text + "It's on the north side of the street.", lookup, cues)
+    assert {mention.text: mention.side for mention in result if mention.text in ("25th", "Bottino")} == {
         "25th": 0.0,
         "Bottino": None,
     }

@@ -8,7 +8,7 @@ from models.language.mentions.name_table import FILE, NameTable
 from models.language.mentions.names import plain_words
 from tests.models.citymap.gazetteer.made_town import is_common
 
-SAID = (
+PHRASES = (
     "Cafe Zoe", "london terrace", "whole foods", "10th avenue", "w 25th st", "25th", "tenth ave", "harlem", "nobody",
     "Пушкин", "botino", "",
 )  # fmt: skip
@@ -20,18 +20,18 @@ def opened(town, tmp_path) -> Lookup:
     return Lookup(town, load_vocabulary(), is_common, NameTable.load(tmp_path))
 
 
-def found(match):
+def result(match):
     return match and (match.objects.tolist(), match.weights.tolist(), match.trust, match.is_exact)
 
 
-@pytest.mark.parametrize("said", SAID)
-def test_an_opened_table_finds_what_a_made_one_finds(lookup, opened, said) -> None:
-    words = plain_words(said)
+@pytest.mark.parametrize("phrase", PHRASES)
+def test_an_opened_table_finds_what_a_made_one_finds(lookup, opened, phrase) -> None:
+    words = plain_words(phrase)
     for ask in ("named", "street", "is_name"):
         was, now = getattr(lookup, ask)(words), getattr(opened, ask)(words)
-        assert was == now if ask == "is_name" else found(was) == found(now)
+        assert was == now if ask == "is_name" else result(was) == result(now)
     if words:
-        assert found(lookup.misspelt(words)) == found(opened.misspelt(words))
+        assert result(lookup.misspelt(words)) == result(opened.misspelt(words))
         assert [lookup.word_weight(word) for word in words] == [opened.word_weight(word) for word in words]
         assert [lookup.is_strange(word) for word in words] == [opened.is_strange(word) for word in words]
 
@@ -40,7 +40,7 @@ def test_house_numbers_are_found_of_an_opened_table(lookup, opened) -> None:
     streets = lookup.street(plain_words("West 25th Street")).objects
     for number in ("402", "406", "9999"):
         was, now = lookup.address(number, streets), opened.address(number, streets)
-        assert [some.tolist() for some in was] == [some.tolist() for some in now]
+        assert [part.tolist() for part in was] == [part.tolist() for part in now]
     assert len(opened.address("402", streets)[0])
 
 

@@ -78,7 +78,7 @@ def test_a_plain_word_is_plain_already(word) -> None:
 
 
 @pytest.mark.parametrize(
-    ("said", "full"),
+    ("phrase", "full"),
     [
         ("W 25th St", "west 25th street"),
         ("West Twenty-Fifth Street", "west 25th street"),
@@ -94,8 +94,8 @@ def test_a_plain_word_is_plain_already(word) -> None:
         ("W", "w"),
     ],
 )
-def test_streets_written_out(said, full) -> None:
-    assert " ".join(full_words(plain_words(said))) == full
+def test_streets_written_out(phrase, full) -> None:
+    assert " ".join(full_words(plain_words(phrase))) == full
 
 
 @pytest.mark.parametrize(

@@ -17,12 +17,12 @@ LETTERS = st.text(st.sampled_from("25th 10ave on&W st.,/'!éßⅣ²፩ﾞ٣京\u
 
 def test_a_whole_text(town, lookup, cues) -> None:
     text = "Hi, I'm on 25th between 9th and 10th. Bottino is across the street, Whole Foods is 50 m ahead on my left."
-    found = find_mentions(text, lookup, cues)
-    assert [(m.form, m.cue.relation) for m in found[1:]] == [("span", "on"), ("thing", "across"), ("thing", "seen")]
-    assert called(town, found[3].objects) == {"Whole Foods Market"}
-    assert found[3].cue.distance_m == 50
-    assert found[3].cue.angle == pytest.approx(-45)
-    assert [text[m.start : m.end] for m in found] == [m.text for m in found]
+    result = find_mentions(text, lookup, cues)
+    assert [(m.form, m.cue.relation) for m in result[1:]] == [("span", "on"), ("thing", "across"), ("thing", "seen")]
+    assert called(town, result[3].objects) == {"Whole Foods Market"}
+    assert result[3].cue.distance_m == 50
+    assert result[3].cue.angle == pytest.approx(-45)
+    assert [text[m.start : m.end] for m in result] == [m.text for m in result]
 
 
 def test_dictation_without_punctuation(town, lookup, cues) -> None:
@@ -89,9 +89,9 @@ def test_other_scripts(town, lookup, cues, text, name) -> None:
 
 def test_a_long_text(lookup, cues) -> None:
     text = ("I'm on 25th between 9th and 10th, Bottino is on my left and the Blarney Stone behind me. " * 60)[:4000]
-    found = find_mentions(text, lookup, cues)
-    assert sum(m.form == "span" for m in found) >= 1
-    assert all(a.start <= b.start for a, b in pairwise(found))
+    result = find_mentions(text, lookup, cues)
+    assert sum(m.form == "span" for m in result) >= 1
+    assert all(a.start <= b.start for a, b in pairwise(result))
     assert len(find_mentions("x" * 4000, lookup, cues)) <= 1
     assert find_mentions("a " * 2000, lookup, cues) == []
 
@@ -112,9 +112,9 @@ def test_any_text_can_be_read(lookup, cues, text) -> None:
 
 def test_a_map_without_names(lookup, cues) -> None:
     bare = Lookup(EMPTY_GAZETTEER, load_vocabulary(), is_common)
-    found = find_mentions("I'm at 25th and 10th, Bottino on my left, a bench behind me, at 5 Main Street", bare, cues)
-    assert all(not len(m.objects) and not len(m.lines_m) for m in found)
-    assert all(m.form == "unknown" for m in found)
+    result = find_mentions("I'm at 25th and 10th, Bottino on my left, a bench behind me, at 5 Main Street", bare, cues)
+    assert all(not len(m.objects) and not len(m.lines_m) for m in result)
+    assert all(m.form == "unknown" for m in result)
 
 
 def test_what_so_many_things_may_be_is_left_out(cues) -> None:
@@ -208,11 +208,11 @@ def test_things_of_a_list_share_where_they_are(lookup, cues, text, angle, things
 
 
 def test_a_kind_right_after_a_name_tells_where_it_is(town, lookup, cues) -> None:
-    found = find_mentions("I'm outside Rossi Bakery, bakery's on my right hand.", lookup, cues)
-    assert found[0].is_exact
-    assert found[0].cue.relation == "outside"
-    assert all(called(town, mention.objects) == {"Rossi Bakery"} for mention in found)
-    assert 90 in {mention.cue.angle for mention in found}
+    result = find_mentions("I'm outside Rossi Bakery, bakery's on my right hand.", lookup, cues)
+    assert result[0].is_exact
+    assert result[0].cue.relation == "outside"
+    assert all(called(town, mention.objects) == {"Rossi Bakery"} for mention in result)
+    assert 90 in {mention.cue.angle for mention in result}
 
 
 def test_a_noun_with_a_hyphen_is_found(lookup, cues) -> None:
@@ -240,5 +240,5 @@ def test_the_street_of_across_the_street_is_none(lookup, cues, text) -> None:
 
 
 def test_the_east_of_a_street_is_no_wind(lookup, cues) -> None:
-    found = find_mentions("Bottino is north of me on West 25th Street", lookup, cues)
-    assert {mention.text: mention.cue.wind for mention in found} == {"Bottino": 0, "West 25th Street": None}
+    result = find_mentions("Bottino is north of me on West 25th Street", lookup, cues)
+    assert {mention.text: mention.cue.wind for mention in result} == {"Bottino": 0, "West 25th Street": None}

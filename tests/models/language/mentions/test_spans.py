@@ -8,8 +8,8 @@ from tests.models.citymap.gazetteer.made_town import called
 
 def spans(text: str, lookup) -> list[tuple[str, str]]:
     """(form, words) of what is found."""
-    words, found = find_spans(text, lookup)
-    return [(span.form, text[words[span.first].start : words[span.last].end]) for span in found]
+    words, result = find_spans(text, lookup)
+    return [(span.form, text[words[span.first].start : words[span.last].end]) for span in result]
 
 
 @pytest.mark.parametrize(
@@ -77,12 +77,12 @@ def test_a_name_across_a_full_stop_is_none(lookup) -> None:
 
 
 def test_spans_are_in_order_and_apart(lookup) -> None:
-    words, found = find_spans(
+    words, result = find_spans(
         "Elmo on W 25th St near Joe's Coffee, the cafe at 10th Ave and 26th, Chelsea Park bench, Nowhere Inn", lookup
     )
-    assert len(found) >= 7
-    assert all(one.last < other.first for one, other in pairwise(found))
-    assert found[-1].last < len(words)
+    assert len(result) >= 7
+    assert all(one.last < other.first for one, other in pairwise(result))
+    assert result[-1].last < len(words)
 
 
 @pytest.mark.parametrize(
@@ -100,11 +100,11 @@ def test_of_nouns_that_are_as_like_the_shortest_is_meant_in_every_process(lookup
 
 
 @pytest.mark.parametrize(
-    ("text", "found"),
+    ("text", "result"),
     [
         ("10th is on my left", True), ("I see 9th's lights", True), ("the 10th is on my left", False),
         ("by the crossing", False), ("across the crossing", False),
     ],
 )  # fmt: skip
-def test_an_ordinal_that_is_told_of_is_a_street(lookup, text, found) -> None:
-    assert ("street" in [form for form, _ in spans(text, lookup)]) is found
+def test_an_ordinal_that_is_told_of_is_a_street(lookup, text, result) -> None:
+    assert ("street" in [form for form, _ in spans(text, lookup)]) is result
