@@ -8,7 +8,7 @@ import numpy as np
 from models.citymap.gallery import MapData
 from models.citymap.templates import TEMPLATES, render_hint
 from models.citymap.types import DIRECTIONS, Direction, Hint
-from models.language.grammar.labelled_text import Fact, LabelledText
+from models.language.grammar.labelled_text import LabelledText, ObjectFact
 from models.language.grammar.typos import typos
 from models.language.grammar.wording import Wording
 
@@ -102,7 +102,7 @@ def _other_colour(words: Sequence[str], hint: Hint, rng: np.random.Generator) ->
 
 
 def _write(wording: Wording, hints: tuple[Hint, ...], rng: np.random.Generator) -> LabelledText:
-    return wording.write([Fact(hint.label, hint.direction, hint.colour) for hint in hints], rng)
+    return wording.write([ObjectFact(hint.label, hint.direction, hint.colour) for hint in hints], rng)
 
 
 def _text_lines(text: LabelledText) -> tuple[str, ...]:

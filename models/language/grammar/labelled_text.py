@@ -12,7 +12,7 @@ def opposite(wind: str) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Fact:
+class ObjectFact:
     """A fact to express."""
 
     label: str  # class of the thing, a key of the grammar's labels or any words

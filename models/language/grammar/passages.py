@@ -16,7 +16,7 @@ from functools import cached_property
 from itertools import pairwise
 from typing import Any, Final
 
-from models.language.grammar.labelled_text import Fact, opposite
+from models.language.grammar.labelled_text import ObjectFact, opposite
 
 SLOT: Final = re.compile(r"\{(?:(\d):([^{}]+)|([a-zA-Z]+)(\d*)([!~=]?))\}")
 _NAMING = ("a", "A", "the", "The", "n", "b", "theb", "nb")
@@ -77,12 +77,12 @@ class Passage:
         """Return the numbers of each slot of a kind."""
         return [numbers for kind, numbers, _ in self.slots if kind == what]
 
-    def match(self, facts: Sequence[Fact], left: Sequence[int]) -> list[int] | None:
+    def match(self, facts: Sequence[ObjectFact], left: Sequence[int]) -> list[int] | None:
         """Return facts of `left`, in order of preference, that fit its things; None if there are none."""
         taken: list[int] = []
         return taken if len(left) >= self.things and self._extend(facts, left, taken) else None
 
-    def _extend(self, facts: Sequence[Fact], left: Sequence[int], taken: list[int]) -> bool:
+    def _extend(self, facts: Sequence[ObjectFact], left: Sequence[int], taken: list[int]) -> bool:
         if len(taken) == self.things:
             return True
         for n in left:
@@ -93,9 +93,9 @@ class Passage:
                 taken.pop()
         return False
 
-    def suit(self, drawn: Sequence[Fact], colour: Callable[[], str]) -> list[Fact]:
+    def suit(self, drawn: Sequence[ObjectFact], colour: Callable[[], str]) -> list[ObjectFact]:
         """Return simple facts with compass directions, changed where its pattern requires it."""
-        facts: list[Fact] = []
+        facts: list[ObjectFact] = []
         for n, fact in enumerate(drawn):
             opposites = [opposite(facts[a].relation) for a, b in map(sorted, self.shared("x")) if b == n]
             changed: dict[str, Any] = {"relation": self.close.get(n, (opposites or [fact.relation])[0])}
@@ -108,7 +108,7 @@ class Passage:
             facts.append(replace(fact, **changed))
         return facts
 
-    def _may_be(self, facts: Sequence[Fact], taken: Sequence[int], fact: int) -> bool:
+    def _may_be(self, facts: Sequence[ObjectFact], taken: Sequence[int], fact: int) -> bool:
         """Return whether a fact can be the next thing after those taken."""
         position, candidate = len(taken), facts[fact]
         if position in self.close:
@@ -133,7 +133,7 @@ class Passage:
             if n < position
         ) and self._is_alike(facts, taken, candidate)
 
-    def _is_alike(self, facts: Sequence[Fact], taken: Sequence[int], candidate: Fact) -> bool:
+    def _is_alike(self, facts: Sequence[ObjectFact], taken: Sequence[int], candidate: ObjectFact) -> bool:
         """Return whether the things that only a plural names have the same relation."""
         for numbers in self.shared("ns"):
             if len(taken) in numbers and len(taken) not in self.stand_ins:

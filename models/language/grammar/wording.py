@@ -19,7 +19,7 @@ from dataclasses import replace
 import numpy as np
 
 from models.language.grammar.files import Grammar, load_grammar
-from models.language.grammar.labelled_text import Fact, LabelledMention, LabelledText, opposite
+from models.language.grammar.labelled_text import LabelledMention, LabelledText, ObjectFact, opposite
 from models.language.grammar.passages import Passage, plural
 from models.language.grammar.typos import spoil
 from models.language.lexicon.lexicon import Names
@@ -41,20 +41,20 @@ class Wording:
         self._phrases["plurals"] = [p for p in self._phrases["passages"] if p.shared("ns")]
         self._phrases["whole"] = [p for p in self._phrases["passages"] if p.things >= LONG_PASSAGE_THINGS]
 
-    def write(self, facts: Sequence[Fact], rng: np.random.Generator, noise: bool = True) -> LabelledText:
+    def write(self, facts: Sequence[ObjectFact], rng: np.random.Generator, noise: bool = True) -> LabelledText:
         """Return a description of facts in random order; noise adds typos, lower case and missing full stops."""
         order = rng.permutation(len(facts)).tolist()
         text = self._surround(self._sentences(facts, order, rng), rng)
         return spoil(text, rng) if noise else text
 
-    def whole(self, facts: Sequence[Fact], rng: np.random.Generator) -> tuple[list[Fact], LabelledText]:
+    def whole(self, facts: Sequence[ObjectFact], rng: np.random.Generator) -> tuple[list[ObjectFact], LabelledText]:
         """Return a description that is one long passage, and its facts: six or more simple ones, changed to fit."""
         passage = self._pick("whole", rng)
         suited = passage.suit(facts[: passage.things], lambda: _one_of(tuple(self.colours), rng))
         text = self._surround([self._fill(passage, suited, range(passage.things), rng)], rng)
         return suited, spoil(text, rng)
 
-    def published(self, facts: Sequence[Fact]) -> LabelledText:
+    def published(self, facts: Sequence[ObjectFact]) -> LabelledText:
         """Return the benchmark's sentences, one per fact, in order (docs/formats.md, rule 8)."""
         text = LabelledText("", ())
         for n, fact in enumerate(facts):
@@ -65,7 +65,7 @@ class Wording:
             text = text.followed_by(sentence, " ") if text.text else sentence
         return text
 
-    def _sentences(self, facts: Sequence[Fact], order: list[int], rng: np.random.Generator) -> list[LabelledText]:
+    def _sentences(self, facts: Sequence[ObjectFact], order: list[int], rng: np.random.Generator) -> list[LabelledText]:
         left, sentences = list(order), []
         while left:
             phrase, taken = self._passage(facts, left, rng) or self._phrase(facts, left, rng)
@@ -74,7 +74,7 @@ class Wording:
         return sentences
 
     def _passage(
-        self, facts: Sequence[Fact], left: list[int], rng: np.random.Generator
+        self, facts: Sequence[ObjectFact], left: list[int], rng: np.random.Generator
     ) -> tuple[Passage, list[int]] | None:
         """Return a random passage that fits and its facts; None at random, or if none fits."""
         simple = [n for n in left if facts[n].is_simple]
@@ -85,17 +85,19 @@ class Wording:
         tried = (self._pick(kind, rng) for kind in kinds for _ in range(PASSAGE_TRIES))
         return next(((p, taken) for p in tried if (taken := p.match(facts, simple))), None)
 
-    def _phrase(self, facts: Sequence[Fact], left: list[int], rng: np.random.Generator) -> tuple[Passage, list[int]]:
+    def _phrase(
+        self, facts: Sequence[ObjectFact], left: list[int], rng: np.random.Generator
+    ) -> tuple[Passage, list[int]]:
         kind, taken = self._choose(facts, left, rng)
         return self._pick(kind, rng), taken
 
-    def _choose(self, facts: Sequence[Fact], left: list[int], rng: np.random.Generator) -> tuple[str, list[int]]:
+    def _choose(self, facts: Sequence[ObjectFact], left: list[int], rng: np.random.Generator) -> tuple[str, list[int]]:
         """Draw a kind of phrase and its facts."""
         plain = [n for n in left if facts[n].is_simple and facts[n].relation in COMPASS]
         return (self._choose_plain if left[0] in plain else self._choose_other)(facts, left, plain, rng)
 
     def _choose_other(
-        self, facts: Sequence[Fact], left: list[int], plain: list[int], rng: np.random.Generator
+        self, facts: Sequence[ObjectFact], left: list[int], plain: list[int], rng: np.random.Generator
     ) -> tuple[str, list[int]]:
         """Choose for a fact that is not just a thing and a direction."""
         first, kind = left[0], _kind_alone(facts[left[0]])
@@ -107,7 +109,7 @@ class Wording:
         return kind, [first]
 
     def _choose_plain(
-        self, facts: Sequence[Fact], left: list[int], plain: list[int], rng: np.random.Generator
+        self, facts: Sequence[ObjectFact], left: list[int], plain: list[int], rng: np.random.Generator
     ) -> tuple[str, list[int]]:
         """Choose for a thing and a direction."""
         first, fact = left[0], facts[left[0]]
@@ -133,7 +135,7 @@ class Wording:
         return phrases[int(rng.integers(len(phrases)))]
 
     def _fill(
-        self, phrase: Passage, facts: Sequence[Fact], taken: Sequence[int], rng: np.random.Generator
+        self, phrase: Passage, facts: Sequence[ObjectFact], taken: Sequence[int], rng: np.random.Generator
     ) -> LabelledText:
         """Fill the slots of a phrase."""
         chosen = [facts[n] for n in taken]
@@ -157,7 +159,7 @@ class Wording:
         return LabelledText(text + phrase.end, tuple(mentions))
 
     def _slot(
-        self, what: str, mark: str, fact: Fact, noun: str, colour: str | None, rng: np.random.Generator
+        self, what: str, mark: str, fact: ObjectFact, noun: str, colour: str | None, rng: np.random.Generator
     ) -> tuple[str, str]:
         """Return the text of a slot as (words before the noun, noun)."""
         if what in ("d", "o", "x"):
@@ -205,7 +207,7 @@ class Wording:
         return text
 
 
-def _kind_alone(fact: Fact) -> str:
+def _kind_alone(fact: ObjectFact) -> str:
     """Return the kind of phrase for a fact that is not just a thing and a direction."""
     if fact.name is not None:
         return "named" if fact.relation in COMPASS else "named_near"
@@ -217,7 +219,7 @@ def _kind_alone(fact: Fact) -> str:
 
 
 def _mention(
-    phrase: Passage, slot: tuple[str, tuple[int, ...]], facts: Sequence[Fact], start: int, noun: str
+    phrase: Passage, slot: tuple[str, tuple[int, ...]], facts: Sequence[ObjectFact], start: int, noun: str
 ) -> LabelledMention:
     """Return the mention of a slot; its facts are numbers of things."""
     what, numbers = slot

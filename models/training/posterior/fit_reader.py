@@ -9,7 +9,7 @@ import torch
 from torch import Tensor, nn
 
 from models.language.grammar.files import Grammar
-from models.language.grammar.labelled_text import Fact, LabelledMention, LabelledText
+from models.language.grammar.labelled_text import LabelledMention, LabelledText, ObjectFact
 from models.language.grammar.wording import Wording
 from models.language.measures import COMPASS
 from models.language.parsed_hint import RELATIONS
@@ -37,7 +37,7 @@ NAME_FRAMES = (
 )  # fmt: skip
 
 
-def draw_text(wording: Wording, rng: np.random.Generator) -> tuple[list[Fact], LabelledText]:
+def draw_text(wording: Wording, rng: np.random.Generator) -> tuple[list[ObjectFact], LabelledText]:
     """Draw made-up facts, and a text that states them."""
     if rng.random() >= PASSAGE_SHARE:
         facts = draw_facts(wording, rng)
@@ -46,43 +46,43 @@ def draw_text(wording: Wording, rng: np.random.Generator) -> tuple[list[Fact], L
     return wording.whole([_repeat(fact, simple[int(rng.integers(n + 1))], rng) for n, fact in enumerate(simple)], rng)
 
 
-def draw_facts(wording: Wording, rng: np.random.Generator, labels: Sequence[str] | None = None) -> list[Fact]:
+def draw_facts(wording: Wording, rng: np.random.Generator, labels: Sequence[str] | None = None) -> list[ObjectFact]:
     """Draw made-up facts that cover what texts can say, not realistic places."""
     names = labels or tuple(wording.labels)
     facts = [_draw_fact(names, rng) for _ in range(int(rng.integers(1, MAX_FACTS + 1)))]
     return [_repeat(fact, facts[int(rng.integers(n + 1))], rng) for n, fact in enumerate(facts)]
 
 
-def _repeat(fact: Fact, other: Fact, rng: np.random.Generator) -> Fact:
+def _repeat(fact: ObjectFact, other: ObjectFact, rng: np.random.Generator) -> ObjectFact:
     """Sometimes repeat the class, direction or colour of another fact, as real texts do."""
     if not (fact.is_simple and other.is_simple):
         return fact
     label, relation, colour = rng.random(3) < REPEAT_SHARES
-    return Fact(
+    return ObjectFact(
         other.label if label else fact.label,
         other.relation if relation else fact.relation,
         other.colour if colour else fact.colour,
     )
 
 
-def _draw_simple(labels: Sequence[str], rng: np.random.Generator) -> Fact:
+def _draw_simple(labels: Sequence[str], rng: np.random.Generator) -> ObjectFact:
     label = labels[int(rng.integers(len(labels)))]
     colour = COLOURS[int(rng.integers(len(COLOURS)))] if rng.random() < 0.65 else None
     wind = COMPASS[CARDINAL_DIRECTIONS[int(rng.integers(4))]] if rng.random() < 0.85 else COMPASS[int(rng.integers(8))]
-    return Fact(label, wind, colour)
+    return ObjectFact(label, wind, colour)
 
 
-def _draw_fact(labels: Sequence[str], rng: np.random.Generator) -> Fact:
+def _draw_fact(labels: Sequence[str], rng: np.random.Generator) -> ObjectFact:
     simple = _draw_simple(labels, rng)
     label, colour = simple.label, simple.colour
     drawn, special = rng.random(2)
     relation = simple.relation if drawn < 0.8 else "on-top" if drawn < 0.9 else "near"
     if special < 0.06:
-        return Fact(label, absent=True, colour=colour)
+        return ObjectFact(label, absent=True, colour=colour)
     if special < 0.12:
-        return Fact(label, relation if relation in COMPASS else "near", name=_draw_name(rng))
+        return ObjectFact(label, relation if relation in COMPASS else "near", name=_draw_name(rng))
     distance = float(rng.integers(2, 40)) if special > 0.86 and relation in COMPASS else None
-    return Fact(label, relation, colour, distance)
+    return ObjectFact(label, relation, colour, distance)
 
 
 def _draw_name(rng: np.random.Generator) -> str:
@@ -90,7 +90,7 @@ def _draw_name(rng: np.random.Generator) -> str:
     return frame.format(word)
 
 
-def _write(wording: Wording, facts: Sequence[Fact], rng: np.random.Generator) -> LabelledText:
+def _write(wording: Wording, facts: Sequence[ObjectFact], rng: np.random.Generator) -> LabelledText:
     plain = all(f.relation != "near" and not f.absent and f.name is None and f.distance_m is None for f in facts)
     return wording.published(facts) if plain and rng.random() < BENCHMARK_SHARE else wording.write(facts, rng)
 
@@ -168,7 +168,7 @@ class ReadingSet:
         return ReadingBatch(TokenFeatures(values, mask, torch.zeros_like(tags)), tags, *columns)
 
 
-def _labels(fact: Fact, mention: LabelledMention) -> tuple[int, int, int]:
+def _labels(fact: ObjectFact, mention: LabelledMention) -> tuple[int, int, int]:
     """Return the labels (relation, colour, absent) of a fact at a mention."""
     relation = -100 if fact.absent else RELATIONS.index(fact.relation)
     return relation, COLOURS.index(str(fact.colour)) if mention.coloured else len(COLOURS), int(fact.absent)

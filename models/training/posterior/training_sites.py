@@ -12,7 +12,7 @@ from models.citymap.points import Ints
 from models.citymap.queries import Queries
 from models.citymap.types import DIRECTIONS, Floats, Hint
 from models.language.grammar.files import Grammar
-from models.language.grammar.labelled_text import Fact
+from models.language.grammar.labelled_text import ObjectFact
 from models.language.grammar.wording import Wording
 from models.language.measures import compass_name
 from models.posterior.binding import Binding
@@ -81,7 +81,7 @@ class TrainingSite:
         texts = []
         for row in rows:
             grammar = grammars[int(rng.integers(len(grammars)))]
-            facts = [Fact(hint.label, hint.direction, hint.colour) for hint in self.hints[row]]
+            facts = [ObjectFact(hint.label, hint.direction, hint.colour) for hint in self.hints[row]]
             if rng.random() < SLIP_SHARE:
                 facts = _slip(facts, self.palette, self.labels, rng)
             if rng.random() < OMISSION_SHARE and len(facts) > MIN_FACTS:
@@ -96,7 +96,7 @@ class TrainingSite:
             bound_hints += [binding.bind(hints) if hints else binding.uninformative_hint() for hints in read]
         return bound_hints
 
-    def _distant_facts(self, row: int, rng: np.random.Generator) -> list[Fact]:
+    def _distant_facts(self, row: int, rng: np.random.Generator) -> list[ObjectFact]:
         """Return one or two facts from the hints of positions some tens of metres away."""
         scenes = np.asarray(self.cells.scenes)[self.truth]
         offset_m = self.positions_m[row] - self.positions_m
@@ -107,11 +107,13 @@ class TrainingSite:
             hint = self.hints[n][int(rng.integers(len(self.hints[n])))]
             wind = compass_name(float(np.degrees(np.arctan2(*offset_m[n]))))
             stated_m = float(distance_m[n].round()) if rng.random() < MEASURED_SHARE else None
-            facts.append(Fact(hint.label, wind, hint.colour, distance_m=stated_m))
+            facts.append(ObjectFact(hint.label, wind, hint.colour, distance_m=stated_m))
         return facts
 
 
-def _slip(facts: Sequence[Fact], palette: Palette, labels: Sequence[str], rng: np.random.Generator) -> list[Fact]:
+def _slip(
+    facts: Sequence[ObjectFact], palette: Palette, labels: Sequence[str], rng: np.random.Generator
+) -> list[ObjectFact]:
     """Return facts of which one has a wrong class, or a wrong direction and colour."""
     n = int(rng.integers(len(facts)))
     fact = facts[n]

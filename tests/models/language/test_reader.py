@@ -3,7 +3,7 @@ import torch
 from torch import nn
 
 from models.citymap.colours import BASIC_PALETTE, KITTI360_PALETTE
-from models.language.grammar.labelled_text import Fact
+from models.language.grammar.labelled_text import ObjectFact
 from models.language.grammar.wording import Wording
 from models.language.measures import Measure
 from models.language.parsed_hint import RELATIONS, ParsedHint
@@ -60,7 +60,7 @@ def test_padding_and_company_change_nothing(reader):
 
 
 def test_targets_mark_the_tokens_of_the_noun(text_encoder):
-    phrase = Wording("train").published([Fact("vending machine", "north", "gray"), Fact("lamp", "east")])
+    phrase = Wording("train").published([ObjectFact("vending machine", "north", "gray"), ObjectFact("lamp", "east")])
     tokens, characters = text_encoder.read([phrase.text], 1)
     tags, ranges = example_targets(phrase.mentions, characters[0], tokens.mask[0])
     for mention, (a, b) in zip(phrase.mentions, ranges, strict=True):

@@ -6,18 +6,18 @@ import pytest
 
 from models.language.grammar import wording as wording_module
 from models.language.grammar.files import load_grammar
-from models.language.grammar.labelled_text import Fact
+from models.language.grammar.labelled_text import ObjectFact
 from models.language.grammar.passages import Passage, plural
 from models.language.grammar.wording import Wording
 from models.language.measures import COMPASS
 from tests.models.language.grammar.passage_rules import problem_of
 
 FACTS = [
-    Fact("lamp", "north", "black"),
-    Fact("road", "on-top", "gray"),
-    Fact("lamp", "south", "gray"),
-    Fact("tree", "north"),
-    Fact("fence", "near", "gray"),
+    ObjectFact("lamp", "north", "black"),
+    ObjectFact("road", "on-top", "gray"),
+    ObjectFact("lamp", "south", "gray"),
+    ObjectFact("tree", "north"),
+    ObjectFact("fence", "near", "gray"),
 ]
 
 
@@ -101,21 +101,21 @@ def test_mentions_know_what_they_stand_for_and_whether_the_colour_is_said(wordin
     assert [spoken.text[m.start : m.end] for m in spoken.mentions][1:3] == ["one", "the other"]
     both = wording_of("two {c12} {ns12} to my {o12}").write([FACTS[0]] * 2, Plain(), noise=False)
     assert [(m.kind, m.facts, m.coloured) for m in both.mentions] == [("plural", (0, 1), True)]
-    apart = [FACTS[0], Fact("lamp", "north", "gray")]
+    apart = [FACTS[0], ObjectFact("lamp", "north", "gray")]
     colours = wording_of("two {ns12}, {c1=} and {c2=}, to my {o12}").write(apart, Plain(), noise=False)
     assert [(m.kind, m.facts) for m in colours.mentions] == [("plural", ()), ("stand-in", (0,)), ("stand-in", (1,))]
 
 
 def test_opposites_are_no_words_and_a_direction_with_an_ending_is_the_plain_word(wording_of) -> None:
     wording = wording_of("{a1} on the {o1}ern side and, opposite,{x12} {a2}")
-    apart = [FACTS[0], Fact("tree", "south")]
+    apart = [FACTS[0], ObjectFact("tree", "south")]
     texts = [wording.write(apart, np.random.default_rng(n), noise=False).text for n in range(20)]
     assert all(re.search(" on the (north|south)ern side and, opposite, (a|an|some) ", text) for text in texts)
 
 
 @pytest.mark.parametrize("grammar", ["train", "val", "test"])
 def test_every_passage_tells_facts_that_are_made_to_suit_it(grammar) -> None:
-    drawn = [Fact(f"thing {n}", COMPASS[n], None if n % 2 else "gray") for n in range(6)]
+    drawn = [ObjectFact(f"thing {n}", COMPASS[n], None if n % 2 else "gray") for n in range(6)]
     passages = [Passage(phrase) for phrase in load_grammar(grammar).phrases["passages"]]
     for passage in passages:
         assert problem_of(passage) is None, passage.phrase
@@ -125,7 +125,7 @@ def test_every_passage_tells_facts_that_are_made_to_suit_it(grammar) -> None:
 
 def test_a_whole_description_tells_its_facts() -> None:
     wording, rng = Wording("train"), np.random.default_rng(0)
-    drawn = [Fact("lamp", wind) for wind in COMPASS]
+    drawn = [ObjectFact("lamp", wind) for wind in COMPASS]
     for _ in range(50):
         facts, spoken = wording.whole(drawn, rng)
         assert len(facts) >= 4

@@ -8,7 +8,7 @@ import pytest
 
 from models.language.grammar.files import GRAMMARS as FOLDER
 from models.language.grammar.files import gist, load_grammar
-from models.language.grammar.labelled_text import Fact, opposite
+from models.language.grammar.labelled_text import ObjectFact, opposite
 from models.language.grammar.passages import Passage
 from models.language.grammar.typos import typos
 from models.language.grammar.wording import Wording
@@ -18,14 +18,14 @@ from tests.models.language.grammar.passage_rules import problem_of
 
 GRAMMARS = ("train", "val", "test")
 FACTS = [
-    Fact("trash bin", "north", "bright-gray"),
-    Fact("road", "on-top", "gray"),
-    Fact("stop", "east"),
-    Fact("lamp", "north", "black"),
-    Fact("bench", "southwest", None, 12.0),
-    Fact("vegetation", "near", "dark-green"),
-    Fact("bridge", absent=True),
-    Fact("building", "west", name="Stockmann"),
+    ObjectFact("trash bin", "north", "bright-gray"),
+    ObjectFact("road", "on-top", "gray"),
+    ObjectFact("stop", "east"),
+    ObjectFact("lamp", "north", "black"),
+    ObjectFact("bench", "southwest", None, 12.0),
+    ObjectFact("vegetation", "near", "dark-green"),
+    ObjectFact("bridge", absent=True),
+    ObjectFact("building", "west", name="Stockmann"),
 ]
 
 
@@ -115,11 +115,11 @@ def test_all_grammars_can_say_all_directions_and_kitti_classes() -> None:
         wording = Wording(grammar)
         assert set(wording.compass) == set(COMPASS)
         for relation in RELATIONS:
-            assert wording.write([Fact("pole", relation, "gray")], np.random.default_rng(0)).text
+            assert wording.write([ObjectFact("pole", relation, "gray")], np.random.default_rng(0)).text
 
 
 def test_the_published_wording_is_the_benchmarks() -> None:
-    spoken = Wording("train").published([Fact("pole", "north", "gray"), Fact("stop", "on-top")])
+    spoken = Wording("train").published([ObjectFact("pole", "north", "gray"), ObjectFact("stop", "on-top")])
     assert spoken.text == "The pose is north of a gray pole. The pose is on-top of a stop."
     assert [spoken.text[m.start : m.end] for m in spoken.mentions] == ["pole", "stop"]
 
