@@ -18,7 +18,7 @@ def run(monkeypatch, weights_dir):
 
 
 def test_train_writes_weights_that_index_and_evaluate_take(run, osm_file, tmp_path, monkeypatch) -> None:
-    monkeypatch.setattr(validation, "CALIBRATION_QUERIES", 20)
+    monkeypatch.setattr(validation, "CALIBRATION_QUERIES_PER_SOURCE", 20)
     result = run("train", "--data", osm_file, "--out", tmp_path / "w", "--steps", "1")
     assert result.exit_code == 0, result.output
     assert "recall@1/3/5" in result.output
