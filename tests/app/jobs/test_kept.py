@@ -108,6 +108,19 @@ def test_what_a_kill_left_in_part_is_removed(service, until, tmp_path):
     assert not (jobs / done / f"{TEMP_PREFIX}0").exists()
 
 
+def test_a_job_whose_removal_was_cut_off_does_not_come_back(service, until, monkeypatch, tmp_path):
+    with service() as api:
+        done = begin(api, "a tree")
+        until(lambda: status(api, done) == "done")
+        with monkeypatch.context() as patch:
+            patch.setattr(store.shutil, "rmtree", lambda *_, **__: None)  # as if killed before it
+            api.delete(f"/evaluate/{done}")
+    assert (tmp_path / "jobs" / done).is_dir()
+    with service() as api:
+        assert api.get(f"/evaluate/{done}").status_code == 404
+    assert not (tmp_path / "jobs" / done).exists()
+
+
 def test_a_job_is_promised_once_its_directory_is_on_disk(service, monkeypatch, tmp_path):
     synced = []
     monkeypatch.setattr(store, "sync", synced.append)

@@ -77,3 +77,14 @@ def test_places_say_where_each_query_was_put_or_that_it_was_put_nowhere() -> Non
     assert [estimate is None for estimate in places["estimate"]] == other.tolist()
     error = [np.hypot(*np.subtract(a, b)) for a, b in zip(places["truth"], places["estimate"], strict=True) if b]
     assert error == pytest.approx(predictions.errors_m()[~other, 0])
+
+
+def test_coverage_is_the_share_of_truths_inside_each_radius() -> None:
+    predictions = made_up(4, 1.0, np.random.default_rng(3))
+    error_m = np.array([1.0, 3.0, 6.0, 20.0])
+    predicted_m = predictions.predicted_m.copy()
+    predicted_m[:, 0] = predictions.positions_m + np.column_stack([error_m, np.zeros(4)])
+    radius_m = np.array([[2.0, 10.0], [2.0, 10.0], [4.0, 10.0], [4.0, 12.0]])
+    report = score(replace(predictions, predicted_m=predicted_m, radius_m=radius_m))
+    assert report["coverage"] == {"p50": {"true": 0.25, "median_m": 3.0}, "p90": {"true": 0.75, "median_m": 10.0}}
+    assert "coverage" not in score(predictions), "a model without radii"

@@ -24,3 +24,9 @@ def test_a_map_without_georeference_says_so() -> None:
     assert not Frame().is_georeferenced
     with pytest.raises(ValueError, match="no georeference"):
         Frame().to_wgs84(np.zeros(2))
+
+
+def test_a_wgs84_position_is_longitude_then_latitude() -> None:
+    frame = Frame(origin_lat=60.0, origin_lon=25.0)
+    assert frame.position_m((25.001, 60.0), "wgs84") == pytest.approx([55.8, 0], abs=0.1)
+    assert frame.position_m((25.001, 60.0), "map").tolist() == [25.001, 60.0]
