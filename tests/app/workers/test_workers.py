@@ -15,6 +15,7 @@ from app.main import create_app
 from app.settings import Settings
 from app.workers import launch
 from app.workers.messages import WorkerFault
+from app.workers.pool import WorkerPool
 from app.workers.remote import open_workers
 from index.answering.query import Query
 from models.errors import IndexBroken, ReplyError
@@ -180,3 +181,11 @@ def test_signals_of_a_terminal_or_a_stopping_system_are_for_the_service(workers)
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             os.kill(pid, number)
     assert ask(workers[0]) == pids
+
+
+def test_a_closed_pool_starts_no_process_again():
+    pool = WorkerPool(Order())
+    pool.enter()
+    pool.leave()
+    with pytest.raises(EOFError, match="closed"):
+        pool.fork()
