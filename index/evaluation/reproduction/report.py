@@ -18,10 +18,12 @@ PUBLISHED, VALIDATED = " (paper)", ", validation"
 COSTS = ("best_step", "steps"), ("seconds_to_best", "seconds")
 ORDERS = (
     "By recall@1, or the share of first positions within 5 m, on the test scenes. Of table 2 the paper's order is that "
-    "of its validation split, where it has RET."
+    "of its validation split, where it has RET. Undecided: the difference is within the sampling error (95 %) over "
+    "seeds and queries, or both rows are at chance."
 )
 FIGURE_4_KEYS = ("4a", "4b")
 Results = dict[str, Any]
+DEVIATES_OF_95_PERCENT = 1.96  # standard errors on either side of an estimate
 Numbers = np.ndarray[Any, np.dtype[np.float64]]
 
 
@@ -166,27 +168,36 @@ def _orders_table(results: Results) -> Table:
         place = experiment.title.split(":")[0]
         for variant in experiment.variants:
             for worse, better in experiment.published_orders():
-                gain = _recall_gain(worse, better, variant, results)
-                holds = "yes" if gain.mean() > 0 else "no"
-                rows.append(
-                    (
-                        place,
-                        f"{better.name} above {worse.name}",
-                        variant,
-                        holds,
-                        f"{(gain > 0).sum()} of {len(gain)}",
-                        _spread(gain),
-                    )
-                )
-    return ("", "the paper's order", "of", "in the mean", "seeds where it holds", "difference"), rows
+                below, above = _first_figures(worse, better, variant, results)
+                gain, verdict = above - below, order_verdict(below, above, results["data"])
+                name = f"{better.name} above {worse.name}"
+                rows.append((place, name, variant, verdict, f"{(gain > 0).sum()} of {len(gain)}", _spread(gain)))
+    return ("", "the paper's order", "of", "does it hold", "seeds where it holds", "difference"), rows
 
 
-def _recall_gain(worse: TableRow, better: TableRow, variant: str, results: Results) -> Numbers:
-    """Return the gain [seeds] in the first figure: recall@1, or the share of first positions within 5 m."""
+def order_verdict(below: Numbers, above: Numbers, data: dict[str, Any]) -> str:
+    """Return whether a recall is above another one, each for the same seeds: "yes", "no" or "undecided".
+
+    Undecided are differences within 1.96 standard errors, and rows that are both at chance. The error has two parts:
+    seeds differ, and all of them are measured on one sample of queries, so its binomial error does not average out.
+    """
+    queries, chance = data["queries"], 1 / data["cells"]
+    gain, means = above - below, np.array([below.mean(), above.mean()])
+    variance = float((means * (1 - means)).sum() / queries)
+    if len(gain) > 1:
+        variance += float(gain.var(ddof=1)) / len(gain)
+    most_by_chance = chance + DEVIATES_OF_95_PERCENT * (chance * (1 - chance) / queries) ** 0.5
+    if abs(gain.mean()) <= DEVIATES_OF_95_PERCENT * variance**0.5 or (means <= most_by_chance).all():
+        return "undecided"
+    return "yes" if gain.mean() > 0 else "no"
+
+
+def _first_figures(worse: TableRow, better: TableRow, variant: str, results: Results) -> tuple[Numbers, Numbers]:
+    """Return the first figure [seeds] of two rows: recall@1, or the share of first positions within 5 m."""
     first = [_recalls(row, variant, results)[0] for row in (worse, better)]
     seeds = min(len(recalls) for recalls in first)
     below, above = (recalls[:seeds].reshape(seeds, -1)[:, 0] for recalls in first)
-    return above - below
+    return below, above
 
 
 def _growth_curves(results: Results) -> list[tuple[str, str, list[list[dict[str, Any]]]]]:

@@ -3,11 +3,12 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import torch
 
 from index.evaluation.reproduction import reproduce as module
-from index.evaluation.reproduction.report import markdown, write_reproduction
+from index.evaluation.reproduction.report import markdown, order_verdict, write_reproduction
 from index.evaluation.reproduction.reproduce import choose_experiments, scale_in_epochs
 from models.errors import DataError
 from models.paper import point_encoder
@@ -164,7 +165,7 @@ def found_of(*seeds: int) -> dict[str, Any]:
     for seed in seeds[1:]:
         for run in (*required_runs(ALL, every_seed=True), TrainingRun(POINTS)):
             runs[run.name].append(made_up(run, seed))
-    data = {"cells": 10, "queries": 5, "exact_matching": {"1": 0.4}}
+    data = {"cells": 100, "queries": 2000, "exact_matching": {"1": 0.4}}
     return {"seeds": list(seeds), "data": data, "experiments": list(EXPERIMENTS), "runs": runs}
 
 
@@ -179,7 +180,7 @@ def test_the_report_has_every_table_and_says_where_the_orders_hold(tmp_path) -> 
     assert "| MNCL, the paper's inputs | 0.200 ± 0.000 |" in text
     assert "| 3 layers | 0.500 |" in text, "figure 4 is of the first seed"
     assert "| Table 2 | MNCL above Text2Loc | our inputs | yes | 2 of 2 | 0.350 ± 0.071 |" in text
-    assert "| Table 2 | Text2Loc above RET | the paper's inputs | no | 0 of 2 | 0.000 ± 0.000 |" in text
+    assert "| Table 2 | Text2Loc above RET | the paper's inputs | undecided | 0 of 2 | 0.000 ± 0.000 |" in text
     assert "| Figure 4 | 3 layers above 5 layers | our inputs | yes | 1 of 1 | 0.300 |" in text
     assert "-50.0 %" in text
     hours = sum(len(results) for results in found_of(0, 1)["runs"].values()) * 90 / 3600
@@ -188,6 +189,23 @@ def test_the_report_has_every_table_and_says_where_the_orders_hold(tmp_path) -> 
     for name in ("figure3.png", "figure4.png", "figure5.png"):
         assert (tmp_path / name).read_bytes().startswith(b"\x89PNG")
         assert f"({name})" in text
+
+
+@pytest.mark.parametrize(
+    ("below", "above", "verdict"),
+    [
+        ([0.50], [0.54], "yes"),  # the error of one measurement is about sqrt(2 * 0.25 / 2000) = .016
+        ([0.50], [0.53], "undecided"),
+        ([0.54], [0.50], "no"),
+        ([0.50, 0.50, 0.50], [0.53, 0.53, 0.53], "undecided"),  # seeds share the queries
+        ([0.50, 0.40, 0.60], [0.60, 0.50, 0.40], "undecided"),
+        ([0.50, 0.50, 0.50], [0.56, 0.62, 0.59], "yes"),
+        ([0.001], [0.014], "undecided"),  # chance is .01
+        ([0.001], [0.03], "yes"),
+    ],
+)
+def test_an_order_within_the_sampling_error_or_at_chance_is_undecided(below, above, verdict) -> None:
+    assert order_verdict(np.array(below), np.array(above), {"queries": 2000, "cells": 100}) == verdict
 
 
 def test_a_report_of_some_tables_has_no_others(tmp_path) -> None:
