@@ -1,10 +1,14 @@
 """Losses of the retrievers."""
 
+from typing import Literal
+
 import torch
 from torch import Tensor
 
 MIN_DISTANCE_SCALE = 1e-10  # avoids a division by zero if all vectors of a batch are equal
 MASKED_LOGIT = -1e9  # finite, because inf - inf would give NaN gradients
+MAX_DISTANCE = 2.0  # of two unit vectors
+Distance = Literal["batch", "unit"]
 
 
 def contrastive_loss(scores: Tensor, same_cell: Tensor, temperature: float) -> Tensor:
@@ -19,15 +23,7 @@ def contrastive_loss(scores: Tensor, same_cell: Tensor, temperature: float) -> T
     return (cross_entropy(logits, target) + cross_entropy(logits.T, target)) / 2
 
 
-def negative_contrastive_loss(
-    scores: Tensor,
-    texts: Tensor,
-    cells: Tensor,
-    same_cell: Tensor,
-    temperature: float,
-    exponent: float,
-    least_weight: float,
-) -> Tensor:
+def negative_contrastive_loss(scores: Tensor, weights: Tensor, same_cell: Tensor, temperature: float) -> Tensor:
     """Return MNCL's negative contrastive loss (equation 5): negatives become improbable, close ones most of all.
 
     p is the softmax over a row of scores / tau, q over a column;
@@ -35,12 +31,11 @@ def negative_contrastive_loss(
     its code does: two logarithms, because p + q in one logarithm can exceed 1. Differs from both: no eps in the
     logarithm, which cuts off the gradient at p near 1, and pairs of one cell are not negatives.
 
-    Arguments as of `contrastive_loss` and `negative_weights`; the exponent is above 0.
+    Arguments as of `contrastive_loss`; weights w [B, B] are of `negative_weights`.
     """
     logits = _mask_same_cell(scores / temperature, same_cell)
-    weights = negative_weights(texts, cells, exponent, least_weight).masked_fill(same_cell, 0.0)  # the diagonal too
     terms = log_complement(logits, dim=1) + log_complement(logits, dim=0)
-    return -(weights * terms).sum() / len(scores)
+    return -(weights.masked_fill(same_cell, 0.0) * terms).sum() / len(scores)  # without the diagonal too
 
 
 def log_complement(logits: Tensor, dim: int) -> Tensor:
@@ -55,17 +50,18 @@ def log_complement(logits: Tensor, dim: int) -> Tensor:
     return torch.where(largest, log_sum_of_others, torch.log1p(-logits.softmax(dim).masked_fill(largest, 0.0)))
 
 
-def negative_weights(texts: Tensor, cells: Tensor, exponent: float, least: float) -> Tensor:
+def negative_weights(texts: Tensor, cells: Tensor, exponent: float, least: float, scale: Distance) -> Tensor:
     """Return w_ij = (1 - d_ij)^(1/a), at least `least`, [B, B], for the mean vectors [B, D] of texts and cells.
 
-    d is the distance of the unit vectors divided by its batch maximum. The paper has no least weight, its code has 0.8.
-    The weights have no gradient.
+    d is the distance of the unit vectors, divided by its maximum in the batch (scale "batch", as in the released code)
+    or by 2, its maximum for any two unit vectors ("unit"); the paper only says that d is at most 1. The paper has no
+    least weight, its code has 0.8. The weights have no gradient; the exponent a is above 0.
     """
     unit = torch.nn.functional.normalize
     with torch.no_grad():
         distance = torch.cdist(unit(texts, dim=-1), unit(cells, dim=-1))
-        closeness = 1 - distance / distance.max().clamp(min=MIN_DISTANCE_SCALE)
-        return closeness.clamp(min=0).pow(1 / exponent).clamp(least, 1.0)
+        largest = distance.max().clamp(min=MIN_DISTANCE_SCALE) if scale == "batch" else MAX_DISTANCE
+        return (1 - distance / largest).clamp(min=0).pow(1 / exponent).clamp(least, 1.0)
 
 
 def _mask_same_cell(logits: Tensor, same_cell: Tensor) -> Tensor:

@@ -11,9 +11,11 @@ from models.language.text_encoder import TextEncoder, TokenFeatures
 from models.paper.instance_encoder import CellBatch, InstanceEncoder
 from models.paper.layers import HintEncoder, SetTransformer, group_by_size, masked_max, mlp
 from models.paper.levels import Level, Levels, level_scores
-from models.paper.losses import contrastive_loss, negative_contrastive_loss
+from models.paper.losses import Distance, contrastive_loss, negative_contrastive_loss, negative_weights
 from models.paper.retriever import Retriever, RetrieverConfig
 from models.paper.scene_graph import Aggregate, AttentionAxis, AttentionQuery, CellEdges, HintEdges, SceneGraph
+
+RELEASED_LEAST_WEIGHT = 0.8  # of the negative loss, in the released code
 
 
 class MnclConfig(RetrieverConfig):
@@ -27,8 +29,10 @@ class MnclConfig(RetrieverConfig):
     loss: Literal["contrastive", "negative"] = "negative"
     loss_temperature: float = 0.05  # tau
     exponent: float = 2.0  # a of the weights of the negative loss; 0 selects the vanilla loss (figure 4)
-    # minimum of these weights: 0.8 in the released code, 0 in the paper
-    least_weight: float = Field(default=0.8, ge=0, le=1)
+    # divisor of the distance in these weights: the maximum of the "batch" (the released code) or of "unit" vectors, 2
+    distance: Distance = "batch"
+    # minimum of these weights; None for 0.8 with "batch" (the released code) and 0 with "unit" (the paper)
+    least_weight: float | None = Field(default=None, ge=0, le=1)
     graph_layers: int = 3  # m of the scene graph (figure 4)
     # "gcn" (the paper) adds the mean of its edges to each node, "code" (the released code) does not
     aggregate: Aggregate = "code"
@@ -114,15 +118,18 @@ class Mncl(Retriever):
 
     def loss(self, text: Levels, cells: Levels, same_cell: Tensor) -> Tensor:
         """Return the sum of the losses of all levels."""
-        config = self.config
+        config, tau = self.config, self.config.loss_temperature
+        least = config.least_weight
+        if least is None:
+            least = RELEASED_LEAST_WEIGHT if config.distance == "batch" else 0.0
         terms = []
         for level, scores in level_scores(text, cells, self.levels).items():
             if config.loss == "contrastive" or config.exponent == 0:
-                terms.append(contrastive_loss(scores, same_cell, config.loss_temperature))
+                terms.append(contrastive_loss(scores, same_cell, tau))
             else:
                 means = text.mean_vectors(level), cells.mean_vectors(level)
-                weights = config.loss_temperature, config.exponent, config.least_weight
-                terms.append(negative_contrastive_loss(scores, *means, same_cell, *weights))
+                weights = negative_weights(*means, config.exponent, least, config.distance)
+                terms.append(negative_contrastive_loss(scores, weights, same_cell, tau))
         return torch.stack(terms).sum()
 
 

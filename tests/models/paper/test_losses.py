@@ -37,13 +37,14 @@ def test_contrastive_loss_against_a_loop(batch) -> None:
     assert contrastive_loss(texts @ cells.T, same, TAU).item() == pytest.approx(total / 12)
 
 
+@pytest.mark.parametrize("scale", ["batch", "unit"])
 @pytest.mark.parametrize("least", [0.0, 0.8])
 @pytest.mark.parametrize("exponent", [1.0, 2.0, 4.0])
-def test_negative_contrastive_loss_against_a_loop(batch, exponent, least) -> None:
+def test_negative_contrastive_loss_against_a_loop(batch, exponent, least, scale) -> None:
     texts, cells, same = batch
     scores = (texts @ cells.T).tolist()
     distance = [[math.dist(t, c) for c in cells.tolist()] for t in texts.tolist()]
-    farthest = max(max(row) for row in distance)
+    farthest = max(max(row) for row in distance) if scale == "batch" else 2
     total = 0.0
     for i in range(6):
         columns = [j for j in range(6) if j == i or not same[i, j]]
@@ -53,7 +54,8 @@ def test_negative_contrastive_loss_against_a_loop(batch, exponent, least) -> Non
             column = [row[j] for row in scores]
             others = [k for k in range(6) if k == j or not same[k, j]]
             total -= weight * math.log(1 - softmax_of(column, i, others))
-    loss = negative_contrastive_loss(texts @ cells.T, texts, cells, same, TAU, exponent, least)
+    weights = negative_weights(5 * texts, 3 * cells, exponent, least, scale)  # of the directions alone
+    loss = negative_contrastive_loss(texts @ cells.T, weights, same, TAU)
     assert loss.item() == pytest.approx(total / 6)
 
 
@@ -61,24 +63,33 @@ def test_gradients_are_those_of_the_loss(batch) -> None:
     texts, cells, same = batch
     scores = (texts @ cells.T).requires_grad_()
     assert torch.autograd.gradcheck(lambda s: contrastive_loss(s, same, TAU), scores)
-    assert torch.autograd.gradcheck(lambda s: negative_contrastive_loss(s, texts, cells, same, TAU, 2.0, 0.0), scores)
+    weights = negative_weights(texts, cells, 2.0, 0.0, "batch")
+    assert torch.autograd.gradcheck(lambda s: negative_contrastive_loss(s, weights, same, TAU), scores)
 
 
 def test_weights_are_bounded_and_fall_with_distance(batch) -> None:
     texts, cells, _ = batch
-    weights, distance = negative_weights(texts, cells, 2.0, 0.8), torch.cdist(texts, cells)
+    weights, distance = negative_weights(texts, cells, 2.0, 0.8, "batch"), torch.cdist(texts, cells)
     assert 0.8 <= weights.min() < weights.max() <= 1
     order = distance.flatten().argsort()
     assert (weights.flatten()[order].diff() <= 1e-9).all()
-    of_paper = negative_weights(texts, cells, 2.0, 0.0)
-    assert of_paper.min() == 0, "what is farthest has no weight"
-    assert torch.equal(of_paper.clamp(min=0.8), weights)
+    without_least = negative_weights(texts, cells, 2.0, 0.0, "batch")
+    assert without_least.min() == 0, "the farthest pair of the batch has no weight"
+    assert torch.equal(without_least.clamp(min=0.8), weights)
+
+
+def test_weights_by_unit_distance_do_not_depend_on_the_batch(batch) -> None:
+    texts, cells, _ = batch
+    weights = negative_weights(texts, cells, 2.0, 0.0, "unit")
+    assert torch.allclose(negative_weights(texts[:2], cells[:2], 2.0, 0.0, "unit"), weights[:2, :2])
+    assert weights.min() > 0
+    opposite = negative_weights(texts[:1], -texts[:1], 2.0, 0.0, "unit")
+    assert opposite.item() == pytest.approx(0, abs=1e-6)
 
 
 def test_certain_answers_stay_finite() -> None:
     scores = torch.tensor([[1.0, -1.0], [1.0, -1.0]], requires_grad=True)  # the second is certain, and wrong
-    unit = torch.eye(2)
-    loss = negative_contrastive_loss(scores, unit, unit, torch.eye(2, dtype=torch.bool), 1e-3, 2.0, 0.8)
+    loss = negative_contrastive_loss(scores, torch.ones(2, 2), torch.eye(2, dtype=torch.bool), 1e-3)
     loss.backward()
     assert torch.isfinite(loss)
     assert torch.isfinite(scores.grad).all()
@@ -99,8 +110,8 @@ def test_gradients_near_certainty_are_those_of_double_precision(lead) -> None:
 
 
 def test_a_batch_of_one_cell_has_nothing_to_tell_apart() -> None:
-    scores, unit = torch.rand(3, 3, requires_grad=True), torch.eye(3)
-    loss = negative_contrastive_loss(scores, unit, unit, torch.ones(3, 3, dtype=torch.bool), 0.05, 2.0, 0.8)
+    scores, ones = torch.rand(3, 3, requires_grad=True), torch.ones(3, 3)
+    loss = negative_contrastive_loss(scores, ones, ones.bool(), 0.05)
     loss.backward()
     assert loss == 0
     assert (scores.grad == 0).all()
