@@ -8,7 +8,9 @@ from torch import Tensor
 MIN_DISTANCE_SCALE = 1e-10  # avoids a division by zero if all vectors of a batch are equal
 MASKED_LOGIT = -1e9  # finite, because inf - inf would give NaN gradients
 MAX_DISTANCE = 2.0  # of two unit vectors
+MIN_COMPLEMENT = 1e-6  # of 1 - p - q in one logarithm, about the resolution of float32 near 1
 Distance = Literal["batch", "unit"]
+Logarithms = Literal["two", "one"]
 
 
 def contrastive_loss(scores: Tensor, same_cell: Tensor, temperature: float) -> Tensor:
@@ -23,18 +25,24 @@ def contrastive_loss(scores: Tensor, same_cell: Tensor, temperature: float) -> T
     return (cross_entropy(logits, target) + cross_entropy(logits.T, target)) / 2
 
 
-def negative_contrastive_loss(scores: Tensor, weights: Tensor, same_cell: Tensor, temperature: float) -> Tensor:
+def negative_contrastive_loss(
+    scores: Tensor, weights: Tensor, same_cell: Tensor, temperature: float, logarithms: Logarithms
+) -> Tensor:
     """Return MNCL's negative contrastive loss (equation 5): negatives become improbable, close ones most of all.
 
-    p is the softmax over a row of scores / tau, q over a column;
-    L = mean over i of the sum over j != i of w_ij * (-log(1 - p_ij)), and the same with q. Differs from the paper, as
-    its code does: two logarithms, because p + q in one logarithm can exceed 1. Differs from both: no eps in the
-    logarithm, which cuts off the gradient at p near 1, and pairs of one cell are not negatives.
+    p is the softmax over a row of scores / tau, q over a column; L = mean over i of the sum over j != i of
+    w_ij * (-log(1 - p_ij - q_ij)) with one logarithm, as in the paper, or of w_ij * (-log(1 - p_ij) - log(1 - q_ij))
+    with two, as in the released code. p + q can exceed 1, where one logarithm is not defined: 1 - p - q is then clamped
+    to MIN_COMPLEMENT, and such a pair has no gradient of its own. Differs from both: two logarithms have no eps, which
+    cuts off the gradient at p near 1, and pairs of one cell are not negatives.
 
     Arguments as of `contrastive_loss`; weights w [B, B] are of `negative_weights`.
     """
     logits = _mask_same_cell(scores / temperature, same_cell)
-    terms = log_complement(logits, dim=1) + log_complement(logits, dim=0)
+    if logarithms == "one":
+        terms = (1 - logits.softmax(dim=1) - logits.softmax(dim=0)).clamp(min=MIN_COMPLEMENT).log()
+    else:
+        terms = log_complement(logits, dim=1) + log_complement(logits, dim=0)
     return -(weights.masked_fill(same_cell, 0.0) * terms).sum() / len(scores)  # without the diagonal too
 
 

@@ -11,7 +11,7 @@ from models.language.text_encoder import TextEncoder, TokenFeatures
 from models.paper.instance_encoder import CellBatch, InstanceEncoder
 from models.paper.layers import HintEncoder, SetTransformer, group_by_size, masked_max, mlp
 from models.paper.levels import Level, Levels, level_scores
-from models.paper.losses import Distance, contrastive_loss, negative_contrastive_loss, negative_weights
+from models.paper.losses import Distance, Logarithms, contrastive_loss, negative_contrastive_loss, negative_weights
 from models.paper.retriever import Retriever, RetrieverConfig
 from models.paper.scene_graph import Aggregate, AttentionAxis, AttentionQuery, CellEdges, HintEdges, SceneGraph
 
@@ -33,6 +33,7 @@ class MnclConfig(RetrieverConfig):
     distance: Distance = "batch"
     # minimum of these weights; None for 0.8 with "batch" (the released code) and 0 with "unit" (the paper)
     least_weight: float | None = Field(default=None, ge=0, le=1)
+    logarithms: Logarithms = "two"  # of the negative loss: "two" in the released code, "one" of 1 - p - q in the paper
     graph_layers: int = 3  # m of the scene graph (figure 4)
     # "gcn" (the paper) adds the mean of its edges to each node, "code" (the released code) does not
     aggregate: Aggregate = "code"
@@ -129,7 +130,7 @@ class Mncl(Retriever):
             else:
                 means = text.mean_vectors(level), cells.mean_vectors(level)
                 weights = negative_weights(*means, config.exponent, least, config.distance)
-                terms.append(negative_contrastive_loss(scores, weights, same_cell, tau))
+                terms.append(negative_contrastive_loss(scores, weights, same_cell, tau, config.logarithms))
         return torch.stack(terms).sum()
 
 

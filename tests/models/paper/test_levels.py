@@ -126,4 +126,5 @@ def test_the_losses_settings_reach_the_loss(text_encoder) -> None:
     assert loss() == loss(least_weight=0.8, exponent=2.0)
     assert len({loss(), loss(least_weight=0.0), loss(least_weight=0.0, exponent=4.0), loss(exponent=0.0)}) == 4
     assert loss(exponent=0.0) == loss(loss="contrastive")
+    assert loss(logarithms="one") != loss()
     assert loss(distance="unit") == loss(distance="unit", least_weight=0.0) != loss(distance="unit", least_weight=0.8)

@@ -55,8 +55,28 @@ def test_negative_contrastive_loss_against_a_loop(batch, exponent, least, scale)
             others = [k for k in range(6) if k == j or not same[k, j]]
             total -= weight * math.log(1 - softmax_of(column, i, others))
     weights = negative_weights(5 * texts, 3 * cells, exponent, least, scale)  # of the directions alone
-    loss = negative_contrastive_loss(texts @ cells.T, weights, same, TAU)
+    loss = negative_contrastive_loss(texts @ cells.T, weights, same, TAU, "two")
     assert loss.item() == pytest.approx(total / 6)
+
+
+def test_one_logarithm_is_of_both_probabilities_and_clamped_where_they_exceed_1(batch) -> None:
+    texts, cells, same = batch
+    scores = texts @ cells.T
+    scores[0, 5] = 2.0  # certain, and wrong: p + q is above 1
+    rows, total, clamped = scores.tolist(), 0.0, 0
+    weights = negative_weights(texts, cells, 2.0, 0.0, "unit")
+    for i in range(6):
+        for j in (j for j in range(6) if not same[i, j]):
+            p = softmax_of(rows[i], j, [k for k in range(6) if k == i or not same[i, k]])
+            q = softmax_of([row[j] for row in rows], i, [k for k in range(6) if k == j or not same[k, j]])
+            clamped += p + q > 1
+            total -= weights[i, j].item() * math.log(max(1 - p - q, 1e-6))
+    assert clamped == 1
+    scores.requires_grad_()
+    loss = negative_contrastive_loss(scores, weights, same, TAU, "one")
+    assert loss.item() == pytest.approx(total / 6)
+    loss.backward()
+    assert torch.isfinite(scores.grad).all()
 
 
 def test_gradients_are_those_of_the_loss(batch) -> None:
@@ -64,7 +84,7 @@ def test_gradients_are_those_of_the_loss(batch) -> None:
     scores = (texts @ cells.T).requires_grad_()
     assert torch.autograd.gradcheck(lambda s: contrastive_loss(s, same, TAU), scores)
     weights = negative_weights(texts, cells, 2.0, 0.0, "batch")
-    assert torch.autograd.gradcheck(lambda s: negative_contrastive_loss(s, weights, same, TAU), scores)
+    assert torch.autograd.gradcheck(lambda s: negative_contrastive_loss(s, weights, same, TAU, "two"), scores)
 
 
 def test_weights_are_bounded_and_fall_with_distance(batch) -> None:
@@ -87,9 +107,10 @@ def test_weights_by_unit_distance_do_not_depend_on_the_batch(batch) -> None:
     assert opposite.item() == pytest.approx(0, abs=1e-6)
 
 
-def test_certain_answers_stay_finite() -> None:
+@pytest.mark.parametrize("logarithms", ["two", "one"])
+def test_certain_answers_stay_finite(logarithms) -> None:
     scores = torch.tensor([[1.0, -1.0], [1.0, -1.0]], requires_grad=True)  # the second is certain, and wrong
-    loss = negative_contrastive_loss(scores, torch.ones(2, 2), torch.eye(2, dtype=torch.bool), 1e-3)
+    loss = negative_contrastive_loss(scores, torch.ones(2, 2), torch.eye(2, dtype=torch.bool), 1e-3, logarithms)
     loss.backward()
     assert torch.isfinite(loss)
     assert torch.isfinite(scores.grad).all()
@@ -109,9 +130,10 @@ def test_gradients_near_certainty_are_those_of_double_precision(lead) -> None:
     assert exact.abs().max() <= 1
 
 
-def test_a_batch_of_one_cell_has_nothing_to_tell_apart() -> None:
+@pytest.mark.parametrize("logarithms", ["two", "one"])
+def test_a_batch_of_one_cell_has_nothing_to_tell_apart(logarithms) -> None:
     scores, ones = torch.rand(3, 3, requires_grad=True), torch.ones(3, 3)
-    loss = negative_contrastive_loss(scores, ones, ones.bool(), 0.05)
+    loss = negative_contrastive_loss(scores, ones, ones.bool(), 0.05, logarithms)
     loss.backward()
     assert loss == 0
     assert (scores.grad == 0).all()
