@@ -78,7 +78,10 @@ class Ranker:
     def _refine(self, text: Levels, rows: npt.NDArray[np.integer[Any]], global_scores: Floats) -> Floats:
         """Return scores [C] of cells in global order; cells beyond the depth cannot rise above the others."""
         first = rows[: self.depth]
-        by_level = {**self.table.scores([text], first), "global": global_scores[None, : len(first)]}
+        by_level = {
+            **self.table.scores([text], first, self.retriever.matching),
+            "global": global_scores[None, : len(first)],
+        }
         refined = self.retriever.combine(by_level)[0]
         rest = global_scores[len(first) :] + (refined - global_scores[: len(first)]).min()
         return np.concatenate([refined, rest]).astype(np.float32)

@@ -13,7 +13,7 @@ from models.citymap.cells import CELLS_PER_BLOCK
 from models.citymap.points import Ints, ranges
 from models.errors import IndexBroken
 from models.paper.instance_encoder import CellFeatures
-from models.paper.levels import Level, Levels
+from models.paper.levels import Level, Levels, Matching
 from models.paper.retriever import Retriever, Vectors
 
 STARTS_FILE = "levels.starts.npy"
@@ -59,8 +59,8 @@ class LevelTable:
         """Mean size of a cell's vectors on disk."""
         return sum(2 * table.size for table in self.vectors.values()) / max(1, len(self.starts) - 1)
 
-    def scores(self, texts: Sequence[Levels], cells: Ints) -> dict[Level, Float32s]:
-        """Return the similarities [Q, C] of descriptions (each B = 1) with cells [C] by level."""
+    def scores(self, texts: Sequence[Levels], cells: Ints, matching: Matching = "hints") -> dict[Level, Float32s]:
+        """Return the similarities [Q, C] of descriptions (each B = 1) with cells [C] by level, as `set_similarity`."""
         begin, end = self.starts[cells], self.starts[cells + 1]
         rows = ranges(begin, end)
         segments = np.concatenate([[0], np.cumsum(end - begin)[:-1]])
@@ -70,10 +70,15 @@ class LevelTable:
             scores[level] = np.empty((len(texts), len(cells)), np.float32)
             for start in range(0, len(texts), TEXTS_PER_BATCH):
                 hints = [text.vectors(level)[0].cpu().numpy() for text in texts[start : start + TEXTS_PER_BATCH]]
-                best = np.maximum.reduceat(np.concatenate(hints) @ instances, segments, axis=1)
+                cosine = np.concatenate(hints) @ instances
                 sizes = [len(vectors) for vectors in hints]
-                sums = np.add.reduceat(best, np.concatenate([[0], np.cumsum(sizes)[:-1]]), axis=0)
-                scores[level][start : start + len(hints)] = sums / np.array(sizes)[:, None]
+                first = np.concatenate([[0], np.cumsum(sizes)[:-1]])
+                sums = np.add.reduceat(np.maximum.reduceat(cosine, segments, axis=1), first, axis=0)
+                similarity = sums / np.array(sizes)[:, None]
+                if matching == "both":
+                    sums = np.add.reduceat(np.maximum.reduceat(cosine, first, axis=0), segments, axis=1)
+                    similarity = (similarity + sums / (end - begin)) / 2
+                scores[level][start : start + len(hints)] = similarity
         return scores
 
     def save(self, directory: Path) -> None:

@@ -8,6 +8,7 @@ import torch
 from torch import Tensor
 
 Level = Literal["global", "instance", "relation"]
+Matching = Literal["hints", "both"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,25 +44,36 @@ class Levels:
         ]
 
 
-def set_similarity(hints: Tensor, hint_mask: Tensor, instances: Tensor, instance_mask: Tensor) -> Tensor:
-    """Return the mean over hints of the maximum over instances of the cosine, [Q, N] (MNCL, equations 6 and 12).
+def set_similarity(
+    hints: Tensor, hint_mask: Tensor, instances: Tensor, instance_mask: Tensor, matching: Matching = "hints"
+) -> Tensor:
+    """Return the similarity [Q, N] of sets of hints and sets of instances (MNCL, equations 6 and 12).
 
-    Hints [Q, H, D] and instances [N, I, D] are unit vectors; masks [Q, H] and [N, I] are True where they are real.
+    "hints" is the mean over hints of the maximum over instances of the cosine (the released code); "both" averages it
+    with the mean over instances of the maximum over hints (the paper matches in both directions). Hints [Q, H, D] and
+    instances [N, I, D] are unit vectors; masks [Q, H] and [N, I] are True where they are real.
     """
     q, h, d = hints.shape
     n, i, _ = instances.shape
     cosine = (hints.reshape(q * h, d) @ instances.reshape(n * i, d).T).reshape(q, h, n, i)
-    best = cosine.masked_fill(~instance_mask, float("-inf")).amax(dim=-1)  # [Q, H, N]
+    best_instance = cosine.masked_fill(~instance_mask, float("-inf")).amax(dim=-1)  # [Q, H, N]
     share = hint_mask / hint_mask.sum(dim=1, keepdim=True)
-    return (best * share[:, :, None]).sum(dim=1)
+    of_hints = (best_instance * share[:, :, None]).sum(dim=1)
+    if matching == "hints":
+        return of_hints
+    best_hint = cosine.masked_fill(~hint_mask[:, :, None, None], float("-inf")).amax(dim=1)  # [Q, N, I]
+    of_instances = (best_hint * (instance_mask / instance_mask.sum(dim=1, keepdim=True))).sum(dim=-1)
+    return (of_hints + of_instances) / 2
 
 
-def level_scores(text: Levels, cells: Levels, levels: Sequence[Level]) -> dict[Level, Tensor]:
-    """Return similarities [Q, N] of Q descriptions with N cells, by level."""
+def level_scores(
+    text: Levels, cells: Levels, levels: Sequence[Level], matching: Matching = "hints"
+) -> dict[Level, Tensor]:
+    """Return similarities [Q, N] of Q descriptions with N cells, by level; matching as of `set_similarity`."""
     return {
         level: text.global_vectors @ cells.global_vectors.T
         if level == "global"
-        else set_similarity(text.vectors(level), text.mask, cells.vectors(level), cells.mask)
+        else set_similarity(text.vectors(level), text.mask, cells.vectors(level), cells.mask, matching)
         for level in levels
     }
 

@@ -10,7 +10,7 @@ from torch import Tensor, nn
 from models.language.text_encoder import TextEncoder, TokenFeatures
 from models.paper.instance_encoder import CellBatch, InstanceEncoder
 from models.paper.layers import HintEncoder, SetTransformer, group_by_size, masked_max, mlp
-from models.paper.levels import Level, Levels, level_scores
+from models.paper.levels import Level, Levels, Matching, level_scores
 from models.paper.losses import Distance, Logarithms, contrastive_loss, negative_contrastive_loss, negative_weights
 from models.paper.retriever import Retriever, RetrieverConfig
 from models.paper.scene_graph import Aggregate, AttentionAxis, AttentionQuery, CellEdges, HintEdges, SceneGraph
@@ -22,6 +22,8 @@ class MnclConfig(RetrieverConfig):
     """Architecture and loss of MNCL, with an option for each row of tables 3 and 4 and for both curves of figure 4."""
 
     levels: tuple[Level, ...] = ("global", "instance", "relation")  # the levels to compare; always includes "global"
+    # similarity of the instance and relation levels, see `set_similarity`: "hints" in the code, "both" in the paper
+    matching: Matching = "hints"
     cell_layers: int = 2  # attention layers over the instances of a cell
     hint_layers: int = 1  # attention layers over the hints of a description
     dropout: float = 0.1  # of the attention layers in training
@@ -70,6 +72,11 @@ class Mncl(Retriever):
     def levels(self) -> tuple[Level, ...]:
         """The levels of the configuration."""
         return self.config.levels
+
+    @property
+    def matching(self) -> Matching:
+        """The matching of the configuration."""
+        return self.config.matching
 
     def global_only(self) -> "Mncl":
         """Return a copy with the global level only; it shares the weights."""
@@ -124,7 +131,7 @@ class Mncl(Retriever):
         if least is None:
             least = RELEASED_LEAST_WEIGHT if config.distance == "batch" else 0.0
         terms = []
-        for level, scores in level_scores(text, cells, self.levels).items():
+        for level, scores in level_scores(text, cells, self.levels, self.matching).items():
             if config.loss == "contrastive" or config.exponent == 0:
                 terms.append(contrastive_loss(scores, same_cell, tau))
             else:

@@ -14,7 +14,7 @@ from models.citymap.cells import CELLS_PER_BLOCK
 from models.language.recent_features import RecentFeatures
 from models.language.text_encoder import DEFAULT_TEXT_ENCODER, TextEncoder, TextEncoderModel, TokenFeatures
 from models.paper.instance_encoder import DEFAULT_INPUTS, CellBatch, CellFeatures, Input
-from models.paper.levels import Level, Levels, sum_of_z_scores
+from models.paper.levels import Level, Levels, Matching, sum_of_z_scores
 from models.paper.point_encoder import PointEncoder
 
 HINT_CACHE_SIZE = 20_000  # sentences; 20 MB at D = 256
@@ -57,6 +57,11 @@ class Retriever(TextEncoderModel):
     def levels(self) -> tuple[Level, ...]:
         """The levels that `embed_texts` and `embed_cells` compute."""
         return ("global",)
+
+    @property
+    def matching(self) -> Matching:
+        """How the vectors of levels other than the global one are compared, see `set_similarity`."""
+        return "hints"
 
     def global_only(self) -> "Retriever":
         """Return the model reduced to the global level, which is faster; it shares the weights."""

@@ -45,7 +45,8 @@ class EncodedGallery:
         """Return the similarities [Q, N] of descriptions with all cells, by level."""
         texts = self.retriever.encode_texts_padded(descriptions)
         scores = np.concatenate([text.global_vectors.numpy() for text in texts]) @ self.vectors.T
-        return {**self.table.scores(texts, np.arange(len(self.vectors))), "global": scores}
+        others = self.table.scores(texts, np.arange(len(self.vectors)), self.retriever.matching)
+        return {**others, "global": scores}
 
 
 def mean_recall(recalls: Sequence[dict[int, float]]) -> dict[int, float]:

@@ -46,6 +46,17 @@ def test_all_levels_on_the_whole_gallery(weighted, cells, labels, expected) -> N
         assert expected[q][rows[q]] == pytest.approx(scores[q], abs=1e-5)
 
 
+def test_the_matching_of_the_retriever_ranks(text_encoder, cells, labels) -> None:
+    torch.manual_seed(0)
+    both = Mncl(text_encoder, MnclConfig(width=32, level_weights=WEIGHTS, matching="both")).eval()
+    ranker, rows = Ranker.from_cells(both, cells, labels), np.arange(9)
+    [text] = both.encode_texts(TEXTS[:1])
+    expected = WEIGHTS[0] * ranker.store.score(text.global_vectors[0].numpy(), rows)
+    for weight, level in zip(WEIGHTS[1:], ("instance", "relation"), strict=True):
+        expected = expected + weight * ranker.table.scores([text], rows, "both")[level][0]
+    assert ranker.score(text, rows) == pytest.approx(expected, abs=1e-5)
+
+
 def test_the_best_of_vector_search_are_reordered_and_stay_first(weighted, cells, labels, expected) -> None:
     plain, deep = (Ranker.from_cells(weighted, cells, labels, depth=depth) for depth in (0, 20))
     texts = weighted.encode_texts(TEXTS)

@@ -33,14 +33,15 @@ def texts(model):
     return [model.encode_description(text) for text in TEXTS]
 
 
-def test_scores_are_those_of_the_padded_form(model, features, table, texts) -> None:
+@pytest.mark.parametrize("matching", ["hints", "both"])
+def test_scores_are_those_of_the_padded_form(model, features, table, texts, matching) -> None:
     rows = np.array([5, 0, 17, len(features) - 1])
-    by_level = table.scores(texts, rows)
+    by_level = table.scores(texts, rows, matching)
     assert set(by_level) == {"instance", "relation"}
     with torch.inference_mode():
         cells = model.embed_cells(features.batch(rows), model.text_encoder.embed(features.labels))
         for n, text in enumerate(texts):
-            expected = level_scores(text, cells, ("global", "instance", "relation"))
+            expected = level_scores(text, cells, ("global", "instance", "relation"), matching)
             for level, scores in by_level.items():
                 assert scores[n] == pytest.approx(expected[level][0].numpy(), abs=1e-5)
 

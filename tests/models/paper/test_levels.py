@@ -1,5 +1,6 @@
 """Similarities and the scene graph against the equations written as loops, and padding that must not leak."""
 
+import numpy as np
 import pytest
 import torch
 
@@ -25,6 +26,18 @@ def test_set_similarity_against_a_loop(sets) -> None:
         for n in range(2):
             best = [max(h @ i for i in instances[n, instance_mask[n]]) for h in hints[q, hint_mask[q]]]
             assert similarity[q, n].item() == pytest.approx(sum(best).item() / len(best), abs=1e-6)
+
+
+def test_similarity_in_both_directions_against_a_loop(sets) -> None:
+    hints, hint_mask, instances, instance_mask = (part.numpy() for part in sets)
+    similarity = set_similarity(*sets, matching="both")
+    for q in range(3):
+        for n in range(2):
+            h, i = hints[q, hint_mask[q]], instances[n, instance_mask[n]]
+            by_hint = [max(float(np.dot(a, b)) for b in i) for a in h]
+            by_instance = [max(float(np.dot(a, b)) for a in h) for b in i]
+            expected = (sum(by_hint) / len(h) + sum(by_instance) / len(i)) / 2
+            assert similarity[q, n].item() == pytest.approx(expected, abs=1e-6)
 
 
 def test_z_scores_make_levels_comparable() -> None:
@@ -126,5 +139,5 @@ def test_the_losses_settings_reach_the_loss(text_encoder) -> None:
     assert loss() == loss(least_weight=0.8, exponent=2.0)
     assert len({loss(), loss(least_weight=0.0), loss(least_weight=0.0, exponent=4.0), loss(exponent=0.0)}) == 4
     assert loss(exponent=0.0) == loss(loss="contrastive")
-    assert loss(logarithms="one") != loss()
+    assert len({loss(), loss(logarithms="one"), loss(matching="both")}) == 3
     assert loss(distance="unit") == loss(distance="unit", least_weight=0.0) != loss(distance="unit", least_weight=0.8)
