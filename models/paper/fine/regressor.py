@@ -1,7 +1,7 @@
 """The regressor, the fine stage of Text2Loc (CVPR 2024), which MNCL uses unchanged."""
 
 import math
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import torch
 from torch import Tensor, nn
@@ -17,7 +17,9 @@ class RegressorConfig(FineConfig):
     # whether hints receive the coordinates of the instances they attend to, see Regressor; False is the matching-free
     # model of the paper
     point: bool = True
-    # weight of the log-likelihood that a hint attends to its true instance, relative to the squared error
+    # loss of a position: its error "squared" (Text2Loc's code) or as a "norm", not squared (MNCL, equation 14)
+    error: Literal["squared", "norm"] = "squared"
+    # weight of the log-likelihood that a hint attends to its true instance, relative to this error
     match_weight: float = 0.1
 
 
@@ -53,9 +55,13 @@ class Regressor(FineModel):
         return self.point_to_instances(hints, hint_mask, instances)[0]
 
     def loss(self, hints: Tensor, hint_mask: Tensor, instances: InstanceFeatures, targets: FineTargets) -> Tensor:
-        """Return the squared error in half cells (Text2Loc) minus the weighted log-likelihood of the true instances."""
+        """Return the error in half cells minus the weighted log-likelihood of the true instances.
+
+        The squared error is the mean over the batch and both coordinates, the norm the mean over the batch.
+        """
         offset, log_share = self.point_to_instances(hints, hint_mask, instances)
-        error = nn.functional.mse_loss(2 * offset, 2 * targets.offset)
+        residual = 2 * (offset - targets.offset)
+        error = residual.norm(dim=-1).mean() if self.config.error == "norm" else residual.square().mean()
         if log_share is None:
             return error
         log_likelihood = log_share[instances.match_mask(targets, hint_mask)]

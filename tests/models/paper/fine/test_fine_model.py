@@ -1,3 +1,4 @@
+import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,6 +12,7 @@ from models.errors import WeightsError
 from models.paper.fine.checkpoint import FINE_METHODS, load_fine, save_fine
 from models.paper.fine.fine_model import CrossAttentionRound, FineTargets, nearest_instances
 from models.paper.fine.matching import MatchingConfig, sinkhorn
+from models.paper.fine.regressor import Regressor, RegressorConfig
 from models.paper.instance_encoder import DEFAULT_INPUTS, geometry_columns
 from models.training.fine_data import FineBatch
 
@@ -169,6 +171,31 @@ def test_the_instances_meant_survive_the_choice_of_the_nearest(fine_model, fine_
         column = int(batch.targets.match[b, h])
         expected = batch.cells.geometry[b, column, :2] / 2 + 0.5
         assert torch.equal(encoded.center[b, i], expected)
+
+
+@pytest.mark.parametrize("error", ["squared", "norm"])
+def test_error_of_a_position_against_a_loop(text_encoder, fine_set, error) -> None:
+    torch.manual_seed(0)
+    model = Regressor(text_encoder, RegressorConfig(width=32, point=False, error=error)).eval()
+    batch = fine_set.batch(5, np.random.default_rng(0))
+    hints = torch.randn(*batch.sentences.shape, 32)
+    with torch.no_grad():
+        instances = model.embed_instances(batch.cells, fine_set.training.label_embeddings)
+        position = model.locate(hints, batch.hint_mask, instances).tolist()
+        loss = model.loss(hints, batch.hint_mask, instances, batch.targets).item()
+    total = 0.0
+    for (x, y), (true_x, true_y) in zip(position, batch.targets.offset.tolist(), strict=True):
+        squares = (2 * x - 2 * true_x) ** 2 + (2 * y - 2 * true_y) ** 2
+        total += math.sqrt(squares) if error == "norm" else squares / 2
+    assert loss == pytest.approx(total / 5, rel=1e-5)
+
+
+def test_a_norm_of_zero_has_a_gradient_of_zero(text_encoder, monkeypatch) -> None:
+    model = Regressor(text_encoder, RegressorConfig(width=32, point=False, error="norm"))
+    offset = torch.full((2, 2), 0.25, requires_grad=True)
+    monkeypatch.setattr(model, "point_to_instances", lambda *_: (offset, None))
+    model.loss(None, None, None, FineTargets(offset.detach(), None)).backward()
+    assert (offset.grad == 0).all()
 
 
 def test_saved_and_loaded_is_the_same(fine_model, features, tmp_path) -> None:
