@@ -63,12 +63,17 @@ class Retriever(TextEncoderModel):
         """How the vectors of levels other than the global one are compared, see `set_similarity`."""
         return "hints"
 
+    @property
+    def reads_whole_text(self) -> bool:
+        """Whether descriptions are read as one text, so that the order of their hints matters."""
+        return False
+
     def global_only(self) -> "Retriever":
         """Return the model reduced to the global level, which is faster; it shares the weights."""
         return self
 
     def embed_hints(self, tokens: TokenFeatures) -> Tensor:
-        """Return features [S, D] of hint sentences, each encoded alone."""
+        """Return features [S, F] of hint sentences, each encoded alone; F is D for most retrievers."""
         raise NotImplementedError
 
     def embed_texts(self, hints: Tensor, mask: Tensor) -> Levels:
@@ -125,10 +130,11 @@ class Retriever(TextEncoderModel):
 
     @torch.inference_mode()
     def encode_description(self, hints: Sequence[str]) -> Levels:
-        """Encode a description of any number of hint sentences in any order, at all levels; B = 1."""
+        """Encode a description of any number of hint sentences, at all levels; B = 1."""
         features = self._hint_cache(hints)
-        # Sorted, so that the result does not depend on the order of the hints.
-        stacked = torch.stack([features[hint] for hint in sorted(hints)])[None]
+        # Sorted, so that the result does not depend on the order of the hints, unless the text is read as a whole.
+        ordered = hints if self.reads_whole_text else sorted(hints)
+        stacked = torch.stack([features[hint] for hint in ordered])[None]
         return self.embed_texts(stacked, torch.ones(1, len(hints), dtype=torch.bool, device=stacked.device))
 
     @torch.inference_mode()

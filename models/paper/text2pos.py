@@ -1,13 +1,13 @@
 """Text2Pos (Kolmet et al., CVPR 2022), coarse stage: an LSTM over words, a graph over instances, a ranking loss."""
 
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import torch
 from pydantic import Field
 from torch import Tensor, nn
 from torch.nn.utils.rnn import pack_padded_sequence
 
-from models.language.text_encoder import TextEncoder, TokenFeatures
+from models.language.text_encoder import MAX_TOKENS, TextEncoder, TokenFeatures
 from models.paper.instance_encoder import CellBatch, InstanceEncoder
 from models.paper.layers import masked_max, mlp
 from models.paper.levels import Levels
@@ -17,6 +17,8 @@ from models.paper.retriever import Retriever, RetrieverConfig
 class Text2PosConfig(RetrieverConfig):
     """Architecture and loss of Text2Pos."""
 
+    # what the LSTM reads: each of the "hints" alone, or the "whole" text, as in the paper
+    text: Literal["hints", "whole"] = "hints"
     neighbours: int = Field(default=8, ge=1)  # k of the edge convolution, including the instance itself
     margin: float = 0.35  # of the ranking loss
 
@@ -77,10 +79,12 @@ class EdgeConvolution(nn.Module):
 class Text2Pos(Retriever):
     """The coarse stage of Text2Pos, which has no attention.
 
-    Differs: the paper runs one LSTM over the whole description; here the LSTM reads each hint alone and the description
-    is the maximum over its hints, for any number of hints in any order. Instances come from the encoder that all
-    methods share (by default without PointNet++), and padding is masked. The released code ends its MLPs with a ReLU,
-    so that its cell vectors are never negative while its descriptions can be; here the last layer is linear.
+    In the paper one LSTM runs over the whole description, in the order of its hints; the option `text="whole"` does so.
+    By default the LSTM reads each hint alone and the description is the maximum over its hints, in any order.
+
+    Differs: in a whole text the tokenizer's marks stay at the ends of each hint; instances come from the encoder that
+    all methods share (by default without PointNet++), and padding is masked. The released code ends its MLPs with a
+    ReLU, so that its cell vectors are never negative while its descriptions can be; here the last layer is linear.
     """
 
     method: ClassVar[str] = "text2pos"
@@ -95,14 +99,30 @@ class Text2Pos(Retriever):
         self.graph = EdgeConvolution(width, config.neighbours)
         self.cell = mlp(width, width, width)
 
+    @property
+    def reads_whole_text(self) -> bool:
+        """Whether the order of the hints matters."""
+        return self.config.text == "whole"
+
     def embed_hints(self, tokens: TokenFeatures) -> Tensor:
-        """Return features [S, D] of hint sentences."""
+        """Return features [S, D] of hint sentences; for the whole text their token ids [S, MAX_TOKENS], -1 at padding.
+
+        Ids are exact in float32, so caches and indexes store them like features.
+        """
+        if self.reads_whole_text:
+            ids = tokens.ids.masked_fill(~tokens.mask, -1).float()
+            return nn.functional.pad(ids, (0, MAX_TOKENS - ids.shape[1]), value=-1)
         features: Tensor = self.hints(tokens.ids, tokens.mask)
         return features
 
     def embed_texts(self, hints: Tensor, mask: Tensor) -> Levels:
         """Return the vectors of descriptions."""
-        return Levels(nn.functional.normalize(masked_max(hints, mask), dim=-1), mask)
+        if not self.reads_whole_text:
+            return Levels(nn.functional.normalize(masked_max(hints, mask), dim=-1), mask)
+        real = ((hints >= 0) & mask[..., None]).flatten(1)  # [B, H * MAX_TOKENS]
+        order = (~real).long().argsort(dim=1, stable=True)[:, : int(real.sum(dim=1).max())]  # padding last
+        ids = hints.flatten(1).gather(1, order).clamp(min=0).long()
+        return Levels(nn.functional.normalize(self.hints(ids, real.gather(1, order)), dim=-1), mask)
 
     def embed_cells(self, batch: CellBatch, label_embeddings: Tensor) -> Levels:
         """Return the vectors of cells."""

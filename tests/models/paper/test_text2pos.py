@@ -4,7 +4,9 @@ import pytest
 import torch
 from torch import nn
 
-from models.paper.text2pos import EdgeConvolution, Text2PosConfig, WordEncoder, pairwise_ranking_loss
+from index.answering.hint_features import load_hint_features, save_hint_features
+from models.paper.checkpoint import load_retriever, save_retriever
+from models.paper.text2pos import EdgeConvolution, Text2Pos, Text2PosConfig, WordEncoder, pairwise_ranking_loss
 
 
 def test_ranking_loss_against_a_loop() -> None:
@@ -67,6 +69,57 @@ def test_words_are_read_one_after_another(text_encoder) -> None:
                     state = cell(word, state)
                 states.append(state[0])
             assert torch.allclose(features[s], (states[0] + states[1]) / 2, atol=1e-5)
+
+
+WHOLE_TEXTS = [
+    ["A tree is to my west.", "I stand on the old gray road.", "Tree."],
+    ["A black pole is to my west."],
+]
+
+
+@pytest.fixture
+def whole(text_encoder):
+    torch.manual_seed(3)
+    return Text2Pos(text_encoder, Text2PosConfig(width=8, text="whole")).eval()
+
+
+def test_one_lstm_reads_the_whole_text(whole) -> None:
+    forward, backward = nn.LSTMCell(8, 8), nn.LSTMCell(8, 8)
+    for name in ("weight_ih", "weight_hh", "bias_ih", "bias_hh"):
+        getattr(forward, name).data = getattr(whole.hints.lstm, f"{name}_l0").data
+        getattr(backward, name).data = getattr(whole.hints.lstm, f"{name}_l0_reverse").data
+    encoded = whole.encode_texts(WHOLE_TEXTS)
+    padded = whole.encode_texts_padded(WHOLE_TEXTS)
+    for text, levels, in_batch in zip(WHOLE_TEXTS, encoded, padded, strict=True):
+        ids = [i for hint in text for i in whole.text_encoder.tokenizer.encode(hint).ids]
+        with torch.inference_mode():
+            words, states = [whole.hints.words(torch.tensor(i)) for i in ids], []
+            for cell, order in ((forward, words), (backward, words[::-1])):
+                state = torch.zeros(8), torch.zeros(8)
+                for word in order:
+                    state = cell(word, state)
+                states.append(state[0])
+        mean = (states[0] + states[1]) / 2
+        assert torch.allclose(levels.global_vectors[0], mean / mean.norm(), atol=1e-5)
+        assert torch.allclose(in_batch.global_vectors[0], mean / mean.norm(), atol=1e-5)
+
+
+def test_the_order_of_hints_matters_to_the_whole_text_alone(whole, text_encoder) -> None:
+    for model in (whole, Text2Pos(text_encoder, Text2PosConfig(width=8)).eval()):
+        one, other = (model.encode_description(text).global_vectors for text in (WHOLE_TEXTS[0], WHOLE_TEXTS[0][::-1]))
+        assert torch.allclose(one, other, atol=1e-6) != model.reads_whole_text
+
+
+def test_an_index_stores_what_the_whole_text_is_made_of(whole, tmp_path) -> None:
+    hints = tuple(WHOLE_TEXTS[0])
+    expected = whole.encode_description(hints).global_vectors
+    save_hint_features(tmp_path, whole, hints)
+    save_retriever(whole, tmp_path / "weights", {})
+    again = load_retriever(tmp_path / "weights")
+    load_hint_features(tmp_path, again)
+    again.embed_hints = None  # what would run the text encoder
+    # weights are saved in half precision
+    assert torch.allclose(again.encode_description(hints).global_vectors, expected, atol=1e-3)
 
 
 def test_word_order_matters_inside_a_hint(text_encoder) -> None:

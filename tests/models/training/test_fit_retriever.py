@@ -17,6 +17,7 @@ from models.paper.fine.matching import MatchingConfig
 from models.paper.instance_encoder import PAPER_INPUTS, CellFeatures
 from models.paper.mncl import Mncl, MnclConfig
 from models.paper.text2loc import Text2Loc, Text2LocConfig
+from models.paper.text2pos import Text2Pos, Text2PosConfig
 from models.sources.source import open_sources
 from models.training import fit_points
 from models.training.fit_fine import train_fine
@@ -210,7 +211,11 @@ def test_a_point_encoder_made_before_serves_retrievers_and_fine_stages(strip, co
 
 
 @pytest.mark.slow
-def test_a_data_set_trains_as_a_map_does(streets, tmp_path) -> None:
+@pytest.mark.parametrize(
+    ("method", "model"),
+    [(Mncl, MnclConfig(width=32)), (Text2Pos, Text2PosConfig(width=32, text="whole"))],
+)
+def test_a_data_set_trains_as_a_map_does(streets, tmp_path, method, model) -> None:
     config = TrainingConfig(steps=4, batch_size=16, validate_every=4)
 
     def load(encoder, rng):
@@ -223,7 +228,7 @@ def test_a_data_set_trains_as_a_map_does(streets, tmp_path) -> None:
         assert source.facts["scenes"] == {"train": [*TRAIN_STREETS], "val": [VAL_STREET]}
         return [source, source]
 
-    recall = train_retriever(load, tmp_path / "w", Mncl, MnclConfig(width=32), config)
+    recall = train_retriever(load, tmp_path / "w", method, model, config)
     assert 0 <= recall[1] <= recall[5] <= 1
     record = json.loads((tmp_path / "w" / "config.json").read_text())["training"]
     assert [source["positions"] > 0 for source in record["sources"]] == [True, True]
