@@ -40,7 +40,7 @@ class MnclConfig(RetrieverConfig):
     # "gcn" (the paper) adds the mean of its edges to each node, "code" (the released code) does not
     aggregate: Aggregate = "code"
     attention_query: AttentionQuery = "edges"  # see `ExternalSpaceAttention`
-    attention_axis: AttentionAxis = "edges"
+    attention_axis: AttentionAxis = "edges"  # "code" is the released code, whose edges also see earlier nodes
 
 
 class Mncl(Retriever):

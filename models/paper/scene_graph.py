@@ -6,7 +6,7 @@ import torch
 from torch import Tensor, nn
 
 AttentionQuery = Literal["edges", "mixed"]
-AttentionAxis = Literal["edges", "channels"]
+AttentionAxis = Literal["edges", "channels", "code"]
 Aggregate = Literal["code", "gcn"]
 
 
@@ -56,7 +56,8 @@ class ExternalSpaceAttention(nn.Module):
         width: D.
         query: "edges" leaves W out (a = 1, b = 0), as the released code does; "mixed" learns it.
         axis: the softmax runs over the "edges" for each channel, or over the "channels" for each edge, as in the paper
-            ("second dimension") and its code.
+            ("second dimension"). "code" is the released code: a_ij is the softmax over the first node i, for each
+            channel, and R_i = sum over j of a_ij * (M E_ij), the edges after the linear layer.
     """
 
     def __init__(self, width: int, query: AttentionQuery, axis: AttentionAxis) -> None:
@@ -72,8 +73,11 @@ class ExternalSpaceAttention(nn.Module):
             query = self.mix[0] * edges + self.mix[1] * _mean_edges(edges, real)[:, :, None]
         if self.axis == "edges":
             weights = self.key(query).masked_fill(~real, float("-inf")).softmax(dim=2)
-        else:
+        elif self.axis == "channels":
             weights = self.key(query).softmax(dim=3) * real
+        else:
+            edges = self.key(query)
+            weights = edges.masked_fill(~real.transpose(1, 2), float("-inf")).softmax(dim=1) * real
         attended: Tensor = (weights * edges).sum(dim=2)
         return attended
 
@@ -89,7 +93,8 @@ class SceneGraph(nn.Module):
 
     A layer is V <- tanh(W_o V) and E_ij <- tanh(W_r [V_i; V_j; E_ij]) (the released code). Aggregate "gcn" adds the
     mean of its edges to a node: V_i <- tanh(W_o V_i + mean over j of E_ij), a reading of the paper's "GCN".
-    Differs: padding is masked.
+    The edges of a layer see the nodes of the same layer, or with the attention axis "code" those of the layer before,
+    as in the released code. Differs: padding is masked.
     """
 
     def __init__(
@@ -109,8 +114,9 @@ class SceneGraph(nn.Module):
         edges = terms.edges() if self.aggregate == "gcn" or not self.num_layers else None
         for layer in range(self.num_layers):
             gathered = _mean_edges(edges, real) if self.aggregate == "gcn" and edges is not None else 0.0
-            nodes = torch.tanh(self.node(nodes) + gathered)
-            mapped = EdgeTerms(self.from_first(nodes), self.from_second(nodes))
+            before, nodes = nodes, torch.tanh(self.node(nodes) + gathered)
+            ends = before if self.attention.axis == "code" else nodes
+            mapped = EdgeTerms(self.from_first(ends), self.from_second(ends))
             if layer == 0:  # W_3 is linear, so it can be applied to the terms instead of the edges
                 edges = torch.tanh(
                     EdgeTerms(*(a + self.from_edge(b) for a, b in zip(mapped, terms, strict=True))).edges()

@@ -76,6 +76,42 @@ def test_scene_graph_against_a_loop(aggregate) -> None:
     assert torch.allclose(found_relations[0], torch.stack(relations), atol=1e-6)
 
 
+def test_scene_graph_of_the_code_against_a_loop() -> None:
+    """A softmax over the first node, times the mapped edge, summed over the second; edges see earlier nodes."""
+    torch.manual_seed(2)
+    graph = SceneGraph(4, 2, "code", "edges", "code")
+    mask = torch.tensor([[True, True, True, False]])
+    nodes, ends = torch.randn(1, 4, 4), EdgeTerms(torch.randn(1, 4, 4), torch.randn(1, 4, 4))
+    linear = {
+        name: (part.weight.detach().numpy(), 0 if part.bias is None else part.bias.detach().numpy())
+        for name, part in graph.named_modules()
+        if isinstance(part, torch.nn.Linear)
+    }
+
+    def apply(name, x):
+        weight, bias = linear[name]
+        return weight @ x + bias
+
+    v = list(nodes[0, :3].numpy())
+    e = {(i, j): (ends.first[0, i] + ends.second[0, j]).numpy() for i in range(3) for j in range(3)}
+    for _ in range(2):
+        e = {
+            (i, j): np.tanh(apply("from_first", v[i]) + apply("from_second", v[j]) + apply("from_edge", e[i, j]))
+            for i, j in e
+        }
+        v = [np.tanh(apply("node", x)) for x in v]
+    mapped = {pair: apply("attention.key", x) for pair, x in e.items()}
+    with torch.no_grad():
+        node_states, relations = graph(nodes, ends, mask)
+    for i in range(3):
+        assert node_states[0, i].numpy() == pytest.approx(v[i], abs=1e-6)
+        expected = np.zeros(4)
+        for j in range(3):
+            total = sum(np.exp(mapped[first, j]) for first in range(3))
+            expected += np.exp(mapped[i, j]) / total * mapped[i, j]
+        assert relations[0, i].numpy() == pytest.approx(expected, abs=1e-6)
+
+
 @pytest.mark.parametrize("query", ["edges", "mixed"])
 @pytest.mark.parametrize("axis", ["edges", "channels"])
 def test_external_space_attention_against_equation_11(query, axis) -> None:
