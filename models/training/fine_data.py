@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -18,9 +18,13 @@ from models.citymap.types import Floats
 from models.paper.fine.fine_model import FineModel, FineTargets
 from models.paper.instance_encoder import CellBatch, CellFeatures
 from models.sources.source import SCENE_GAP_M
-from models.training.retrieval_data import SYMMETRIES, TrainingSet, reflect_cells
+from models.training.retrieval_data import SYMMETRIES, DrawnHints, TrainingSet, reflect_cells
 
 CLONED_SHARE = 0.5  # of the examples use another cell than the best one (map cloning)
+# Of Text2Loc's map cloning: how far away the centre of a cell may be on each axis, and how many hints it may lack.
+CLONE_REACH_M, CLONE_MISMATCHES = 12.0, 1
+MIN_CLONE_DISTANCE_M = 0.1  # avoids a division by zero where a position is at a centre
+CloningMode = Literal["none", "containing", "published"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -36,11 +40,12 @@ class FineBatch:
 class FineSet:
     """A training set of a fine stage, with the offset in the cell and the instance of each hint.
 
-    With `pmc`, prototype-based map cloning (Text2Loc), half of the examples use another cell that contains the position
-    instead of the best one.
+    With prototype-based map cloning (Text2Loc), half of the examples use another cell instead of the best one: with
+    `pmc` "containing" any that contains the position; with "published" one whose centre is within 12 m of it on both
+    axes and which lacks the instance of at most one hint, drawn by inverse distance to its centre, as in Text2Loc.
     """
 
-    def __init__(self, training: TrainingSet, pmc: bool = True) -> None:
+    def __init__(self, training: TrainingSet, pmc: CloningMode = "containing") -> None:
         self.training, self.statements, self.pmc = training, training.statements, pmc
         self.cells, self.positions_m = self.statements.gallery.cells, self.statements.positions_m[:, :2]
         starts, rows = containing_cells(self.cells, self.positions_m, training.best)
@@ -50,13 +55,37 @@ class FineSet:
         return len(self.training)
 
     def draw_cells(self, positions: npt.NDArray[np.intp], rng: np.random.Generator) -> npt.NDArray[np.intp]:
-        """Draw a cell for each position: the best one or, with map cloning, often another that contains it."""
+        """Draw a cell for each position: the best one or, with "containing" cloning, often another that contains it."""
         start, end = self.neighbour_starts[positions], self.neighbour_starts[positions + 1]
-        cloned = self.pmc & (rng.random(len(positions)) < CLONED_SHARE) & (end > start)
+        cloned = (self.pmc == "containing") & (rng.random(len(positions)) < CLONED_SHARE) & (end > start)
         picked = start + (rng.random(len(positions)) * (end - start)).astype(np.intp)
         cells: npt.NDArray[np.intp] = np.array(self.training.best[positions])
         cells[cloned] = self.neighbours[picked[cloned]]
         return cells
+
+    def draw_published(
+        self, positions: npt.NDArray[np.intp], drawn: DrawnHints, rng: np.random.Generator
+    ) -> npt.NDArray[np.intp]:
+        """Draw a cell for each position and its drawn hints, often another than the best one, as Text2Loc does."""
+        cells: npt.NDArray[np.intp] = np.array(self.training.best[positions])
+        for row in np.flatnonzero(rng.random(len(positions)) < CLONED_SHARE):
+            position = positions[row]
+            candidates, distance_m = self.clones(int(position), drawn.hints[row, drawn.mask[row]])
+            if len(candidates):
+                closeness = 1 / np.maximum(distance_m, MIN_CLONE_DISTANCE_M)
+                cells[row] = rng.choice(candidates, p=closeness / closeness.sum())
+        return cells
+
+    def clones(self, position: int, hints: Ints) -> tuple[Ints, Floats]:
+        """Return the cells that Text2Loc may clone for a position and its hints, and the distance to their centres."""
+        position_m = self.positions_m[position]
+        others = self.neighbours[self.neighbour_starts[position] : self.neighbour_starts[position + 1]]
+        away_m = np.abs(self.cells.center_m[others, :2] - position_m)
+        within = away_m.max(axis=1) < CLONE_REACH_M
+        known = int((self.statements.mentioned_number[hints] >= 0).sum())
+        few = [known - (self._match(hints, int(cell), position_m) >= 0).sum() <= CLONE_MISMATCHES for cell in others]
+        valid = within & np.array(few, dtype=bool)
+        return others[valid], np.linalg.norm(away_m[valid], axis=1)
 
     def batch(self, size: int, rng: np.random.Generator, with_matches: bool = True) -> FineBatch:
         """Draw examples with random position, cell, hints, wording and orientation; without matches, all are -1."""
@@ -64,6 +93,8 @@ class FineSet:
         cells = self.draw_cells(positions, rng)
         symmetry = rng.integers(len(SYMMETRIES), size=size)
         drawn = self.training.draw_hints(positions, symmetry, rng)
+        if self.pmc == "published":
+            cells = self.draw_published(positions, drawn, rng)
         match = np.full(drawn.mask.shape, -1, dtype=np.int64)
         for row in range(size) if with_matches else ():
             hints = drawn.hints[row, drawn.mask[row]]

@@ -14,7 +14,7 @@ from models.paper.fine.checkpoint import FINE_METHODS, save_fine
 from models.paper.fine.fine_model import FineConfig, FineModel, FineTargets
 from models.training.engine.devices import on_device
 from models.training.engine.loop import History, Progress, pick_device, run_training
-from models.training.fine_data import FineBatch, FineSet, FineValidation
+from models.training.fine_data import CloningMode, FineBatch, FineSet, FineValidation
 from models.training.fit_points import prepare_point_encoder
 from models.training.settings import TrainingConfig, settings_record
 from models.training.training_data import TrainingData
@@ -25,7 +25,9 @@ class FineTask:
 
     criterion = "within_5m"
 
-    def __init__(self, model: FineModel, sources: Sequence[TrainingData], batch_size: int, pmc: bool = True) -> None:
+    def __init__(
+        self, model: FineModel, sources: Sequence[TrainingData], batch_size: int, pmc: CloningMode = "containing"
+    ) -> None:
         self.model, self.sources, self.batch_size = model, sources, batch_size
         self.sets = [FineSet(source.training, pmc) for source in sources]
         sizes = np.array([len(source.training) for source in sources])

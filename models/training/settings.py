@@ -13,6 +13,7 @@ from models.paper.checkpoint import METHODS
 from models.paper.fine.checkpoint import FINE_METHODS
 from models.posterior.model import PosteriorConfig, PosteriorModel
 from models.training.engine.loop import LoopConfig
+from models.training.fine_data import CloningMode
 from models.training.retrieval_data import WordingMode
 
 
@@ -39,7 +40,7 @@ class TrainingConfig(LoopConfig):
     spacing_m: float = Field(default=4.0, gt=0)  # of the training positions in an OpenStreetMap file
     # "varied" draws the number of hints and their wording; "published" is that of the benchmark.
     wording: WordingMode = "varied"
-    pmc: bool = True  # prototype-based map cloning, see `FineSet`
+    pmc: CloningMode = "containing"  # prototype-based map cloning, see `FineSet`
     # Directory of a point encoder (`hereabouts train --method points`) for point inputs; None trains one.
     points: Path | None = None
 

@@ -44,8 +44,47 @@ def test_half_of_the_cells_are_cloned_or_none(either) -> None:
     drawn = either.draw_cells(positions, np.random.default_rng(1))
     has_other = (np.diff(either.neighbour_starts) > 0)[positions]
     assert np.mean(drawn[has_other] != training.best[positions][has_other]) == pytest.approx(0.5, abs=0.03)
-    plain = FineSet(training, pmc=False)
+    plain = FineSet(training, pmc="none")
     assert (plain.draw_cells(positions, np.random.default_rng(1)) == training.best[positions]).all()
+
+
+def instances_of(fine_set, cell):
+    parts = fine_set.cells.parts
+    return set(fine_set.statements.part_number[parts.starts[cell] : parts.starts[cell + 1]].tolist())
+
+
+def test_text2loc_clones_near_cells_that_lack_one_instance_at_most(either) -> None:
+    published, training = FineSet(either.training, pmc="published"), either.training
+    cells, rng = either.cells, np.random.default_rng(0)
+    positions = rng.choice(training.usable, 60)
+    drawn, clone_count = training.draw_hints(positions, np.zeros(60, np.int64), rng), 0
+    for row, position in enumerate(positions):
+        mentioned = either.statements.mentioned_number[drawn.hints[row, drawn.mask[row]]].tolist()
+        x, y = either.positions_m[position]
+        naive = {}
+        for cell in range(len(cells)):
+            east, north = cells.center_m[cell, 0] - x, cells.center_m[cell, 1] - y
+            if cells.scenes[cell] != cells.scenes[training.best[position]] or max(abs(east), abs(north)) >= 12:
+                continue
+            lacking = [n for n in mentioned if n >= 0 and n not in instances_of(either, cell)]
+            if cell != training.best[position] and len(lacking) <= 1:
+                naive[cell] = (east**2 + north**2) ** 0.5
+        clones, distance_m = published.clones(int(position), drawn.hints[row, drawn.mask[row]])
+        assert dict(zip(clones.tolist(), distance_m.tolist(), strict=True)) == pytest.approx(naive)
+        clone_count += len(naive)
+    assert clone_count > 10
+
+
+def test_text2loc_draws_clones_by_inverse_distance(fine_set, monkeypatch) -> None:
+    published, training = FineSet(fine_set.training, pmc="published"), fine_set.training
+    monkeypatch.setattr(published, "clones", lambda *_: (np.array([7, 9]), np.array([2.0, 6.0])))
+    positions = np.full(4000, training.usable[0])
+    drawn = training.draw_hints(positions, np.zeros(4000, np.int64), np.random.default_rng(0))
+    cells = published.draw_published(positions, drawn, np.random.default_rng(1))
+    assert np.mean(cells == 7) == pytest.approx(0.5 * 6 / 8, abs=0.03)
+    assert np.mean(cells == 9) == pytest.approx(0.5 * 2 / 8, abs=0.03)
+    batch = FineSet(training, pmc="published").batch(16, np.random.default_rng(2))
+    assert (batch.targets.offset - 0.5).abs().max() <= 0.5 + 1e-5, "each cell contains its position"
 
 
 def test_targets_turn_with_the_cell(either) -> None:
@@ -119,7 +158,7 @@ def test_validation_of_the_truth_is_perfect_and_of_the_centre_is_the_centres(eit
 
 
 def test_matches_name_the_instances_that_the_store_says(store_set, streets) -> None:
-    store, fine_set = load_data(streets, "train"), FineSet(store_set.training, pmc=False)
+    store, fine_set = load_data(streets, "train"), FineSet(store_set.training, pmc="none")
     poses, parts = store.poses, store.cell_table().parts
     match = fine_set.batch(80, np.random.default_rng(0)).targets.match.numpy()
     rng = np.random.default_rng(0)  # what the batch drew
@@ -142,14 +181,14 @@ def test_matches_name_the_instances_that_the_store_says(store_set, streets) -> N
 def test_both_methods_overfit_a_few_positions(city, source, text_encoder) -> None:
     positions = city.locations_m[np.random.default_rng(4).choice(len(city.locations_m), 12, replace=False)]
     training = TrainingSet(source.statements_at(positions), text_encoder)
-    examples = FineSet(training, pmc=False).batch(12, np.random.default_rng(0))
+    examples = FineSet(training, pmc="none").batch(12, np.random.default_rng(0))
     for method, config in (
         ("regressor", RegressorConfig(width=32, dropout=0.0)),
         ("matching", FINE_METHODS["matching"].config_type(width=32, dropout=0.0, refine=True, iterations=10)),
     ):
         torch.manual_seed(0)
         task = FineTask(
-            FINE_METHODS[method](text_encoder, config), [TrainingData(training, None, None, {})], 12, pmc=False
+            FINE_METHODS[method](text_encoder, config), [TrainingData(training, None, None, {})], 12, pmc="none"
         )
         optimizer = torch.optim.Adam(task.model.parameters(), 5e-3)
         losses = []
@@ -196,7 +235,7 @@ def test_a_data_set_trains_either_method(streets, tmp_path) -> None:
         return [load_training_data(streets, ("train", "val"), encoder, TrainingConfig(), rng)] * 2
 
     for method, kind in FINE_METHODS.items():
-        config = TrainingConfig(steps=2, batch_size=8, validate_every=2, pmc=False)
+        config = TrainingConfig(steps=2, batch_size=8, validate_every=2, pmc="none")
         figures = train_fine(load, tmp_path / method, method, kind.config_type(width=32), config)
         assert 0 <= figures["within_5m"] <= figures["within_10m"] <= 1
         assert load_fine(tmp_path / method).method == method
