@@ -4,7 +4,7 @@ import copy
 from typing import ClassVar, Literal
 
 import torch
-from pydantic import Field
+from pydantic import Field, field_validator
 from torch import Tensor, nn
 
 from models.language.text_encoder import TextEncoder, TokenFeatures
@@ -21,26 +21,40 @@ RELEASED_LEAST_WEIGHT = 0.8  # of the negative loss, in the released code
 class MnclConfig(RetrieverConfig):
     """Architecture and loss of MNCL, with an option for each row of tables 3 and 4 and for both curves of figure 4."""
 
-    levels: tuple[Level, ...] = ("global", "instance", "relation")  # the levels to compare; always includes "global"
+    levels: tuple[Level, ...] = (
+        "global",
+        "instance",
+        "relation",
+    )  # the levels to compare; "global" is always the first
     # similarity of the instance and relation levels, see `set_similarity`: "hints" in the code, "both" in the paper
     matching: Matching = "hints"
-    cell_layers: int = 2  # attention layers over the instances of a cell
-    hint_layers: int = 1  # attention layers over the hints of a description
-    dropout: float = 0.1  # of the attention layers in training
+    cell_layers: int = Field(default=2, ge=0)  # attention layers over the instances of a cell
+    hint_layers: int = Field(default=1, ge=0)  # attention layers over the hints of a description
+    dropout: float = Field(default=0.1, ge=0, lt=1)  # of the attention layers in training
     # "contrastive" is the vanilla loss (InfoNCE), "negative" the paper's
     loss: Literal["contrastive", "negative"] = "negative"
-    loss_temperature: float = 0.05  # tau
-    exponent: float = 2.0  # a of the weights of the negative loss; 0 selects the vanilla loss (figure 4)
+    loss_temperature: float = Field(default=0.05, gt=0)  # tau
+    exponent: float = Field(
+        default=2.0, ge=0
+    )  # a of the weights of the negative loss; 0 selects the vanilla loss (figure 4)
     # divisor of the distance in these weights: the maximum of the "batch" (the released code) or of "unit" vectors, 2
     distance: Distance = "batch"
     # minimum of these weights; None for 0.8 with "batch" (the released code) and 0 with "unit" (the paper)
     least_weight: float | None = Field(default=None, ge=0, le=1)
     logarithms: Logarithms = "two"  # of the negative loss: "two" in the released code, "one" of 1 - p - q in the paper
-    graph_layers: int = 3  # m of the scene graph (figure 4)
+    graph_layers: int = Field(default=3, ge=0)  # m of the scene graph (figure 4)
     # "gcn" (the paper) adds the mean of its edges to each node, "code" (the released code) does not
     aggregate: Aggregate = "code"
     attention_query: AttentionQuery = "edges"  # see `ExternalSpaceAttention`
     attention_axis: AttentionAxis = "edges"  # "code" is the released code, whose edges also see earlier nodes
+
+    @field_validator("levels")
+    @classmethod
+    def _starts_with_global(cls, levels: tuple[Level, ...]) -> tuple[Level, ...]:
+        """Refuse levels that an index cannot rank by: it searches by the global level, which the loss must train."""
+        if levels[:1] != ("global",) or len(set(levels)) < len(levels):
+            raise ValueError("write 'global' first, then 'instance', 'relation' or both, each once")
+        return levels
 
 
 class Mncl(Retriever):

@@ -2,6 +2,7 @@
 
 from typing import ClassVar
 
+from pydantic import Field
 from torch import Tensor, nn
 
 from models.language.text_encoder import TextEncoder, TokenFeatures
@@ -17,10 +18,10 @@ NUM_HEADS = 4
 class RetConfig(RetrieverConfig):
     """Architecture and loss of RET."""
 
-    cell_layers: int = 2  # relation-enhanced layers over the instances of a cell
-    hint_layers: int = 2  # relation-enhanced layers over the hints of a description
-    dropout: float = 0.1  # of these layers in training
-    margin: float = 0.35  # of the ranking loss
+    cell_layers: int = Field(default=2, ge=0)  # relation-enhanced layers over the instances of a cell
+    hint_layers: int = Field(default=2, ge=0)  # relation-enhanced layers over the hints of a description
+    dropout: float = Field(default=0.1, ge=0, lt=1)  # of these layers in training
+    margin: float = Field(default=0.35, ge=0)  # of the ranking loss
 
 
 class InstanceRelation(nn.Module):

@@ -28,7 +28,7 @@ class RetrieverConfig(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     text_encoder: str = DEFAULT_TEXT_ENCODER  # "minilm", a directory or a hub id
-    width: int = 256  # D, size of the vectors
+    width: int = Field(default=256, ge=4, multiple_of=4)  # D, size of the vectors
     # features of an instance, see `InstanceEncoder`; "points" adds a `PointEncoder`
     inputs: tuple[Input, ...] = Field(default=DEFAULT_INPUTS, min_length=1)
     # weight of each of `Retriever.levels` in the score of a cell, fitted on validation data; if empty, the z-scores of

@@ -2,6 +2,7 @@
 
 from typing import ClassVar
 
+from pydantic import Field
 from torch import Tensor, nn
 
 from models.language.text_encoder import TextEncoder, TokenFeatures
@@ -17,10 +18,12 @@ NUM_HEADS = 4
 class Text2LocConfig(RetrieverConfig):
     """Architecture and loss of Text2Loc."""
 
-    cell_layers: int = 2  # attention layers over the instances of a cell
-    hint_layers: int = 1  # attention layers over the hints of a description, each with a residual connection
-    dropout: float = 0.1  # of the attention layers in training
-    loss_temperature: float = 0.1  # tau
+    cell_layers: int = Field(default=2, ge=0)  # attention layers over the instances of a cell
+    hint_layers: int = Field(
+        default=1, ge=0
+    )  # attention layers over the hints of a description, each with a residual connection
+    dropout: float = Field(default=0.1, ge=0, lt=1)  # of the attention layers in training
+    loss_temperature: float = Field(default=0.1, gt=0)  # tau
 
 
 class Text2Loc(Retriever):

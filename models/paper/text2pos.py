@@ -20,7 +20,7 @@ class Text2PosConfig(RetrieverConfig):
     # what the LSTM reads: each of the "hints" alone, or the "whole" text, as in the paper
     text: Literal["hints", "whole"] = "hints"
     neighbours: int = Field(default=8, ge=1)  # k of the edge convolution, including the instance itself
-    margin: float = 0.35  # of the ranking loss
+    margin: float = Field(default=0.35, ge=0)  # of the ranking loss
 
 
 class WordEncoder(nn.Module):

@@ -37,7 +37,7 @@ class FineConfig(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     text_encoder: str = DEFAULT_TEXT_ENCODER  # "minilm", a directory or a hub id
-    width: int = 128  # D
+    width: int = Field(default=128, ge=1)  # D
     # features of an instance, see `InstanceEncoder`; "points" adds a `PointEncoder`
     inputs: tuple[Input, ...] = Field(default=DEFAULT_INPUTS, min_length=1)
     # whether a linear map of the geometry is added to the features of the instances, because their normalisation blurs
@@ -47,8 +47,8 @@ class FineConfig(BaseModel):
     # 16 of the paper
     max_instances: int | None = Field(default=None, ge=1)
     rounds: int = Field(default=2, ge=1)  # rounds of cross-attention between hints and instances
-    heads: int = 4  # of the attention
-    dropout: float = 0.1  # of the attention layers in training
+    heads: int = Field(default=4, ge=1)  # of the attention
+    dropout: float = Field(default=0.1, ge=0, lt=1)  # of the attention layers in training
     # standard deviation of a coordinate in metres, given the right cell; measured on validation data
     error_m: float | None = None
 

@@ -8,6 +8,7 @@ import math
 from typing import ClassVar
 
 import torch
+from pydantic import Field
 from torch import Tensor, nn
 
 from models.language.text_encoder import TextEncoder
@@ -21,9 +22,9 @@ class MatchingConfig(FineConfig):
     # whether offsets are predicted from hints after cross-attention (RET's cascaded matching and refinement) instead of
     # hints alone (Text2Pos)
     refine: bool = False
-    iterations: int = 50  # of Sinkhorn's algorithm
-    threshold: float = 0.2  # minimum share of a match that counts
-    offset_weight: float = 5.0  # weight of the squared error of the offsets in the loss
+    iterations: int = Field(default=50, ge=1)  # of Sinkhorn's algorithm
+    threshold: float = Field(default=0.2, ge=0, le=1)  # minimum share of a match that counts
+    offset_weight: float = Field(default=5.0, ge=0)  # weight of the squared error of the offsets in the loss
 
 
 class Matching(FineModel):

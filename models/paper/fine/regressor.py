@@ -4,6 +4,7 @@ import math
 from typing import ClassVar, Literal
 
 import torch
+from pydantic import Field
 from torch import Tensor, nn
 
 from models.language.text_encoder import TextEncoder
@@ -20,7 +21,7 @@ class RegressorConfig(FineConfig):
     # loss of a position: its error "squared" (Text2Loc's code) or as a "norm", not squared (MNCL, equation 14)
     error: Literal["squared", "norm"] = "squared"
     # weight of the log-likelihood that a hint attends to its true instance, relative to this error
-    match_weight: float = 0.1
+    match_weight: float = Field(default=0.1, ge=0)
 
 
 class Regressor(FineModel):

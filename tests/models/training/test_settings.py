@@ -40,6 +40,16 @@ def test_settings_are_changed_one_by_one() -> None:
         ("training.steps=0", "greater than or equal to 1"),
         ("training.steps=none", "valid integer"),
         ("model.levels=global,street", "'global', 'instance' or 'relation'"),
+        ("model.levels=instance", "write 'global' first"),
+        ("model.levels=instance,global", "write 'global' first"),
+        ("model.levels=global,global", "each once"),
+        ("model.levels=", "write 'global' first"),
+        ("model.graph_layers=-1", r"model.graph_layers='-1': input should be greater than or equal to 0"),
+        ("model.exponent=-1", r"model.exponent='-1': input should be greater than or equal to 0"),
+        ("model.loss_temperature=0", "greater than 0"),
+        ("model.dropout=1", "less than 1"),
+        ("model.cell_layers=-1", "greater than or equal to 0"),
+        ("model.width=30", "multiple of 4"),
     ],
 )
 def test_what_is_wrong_with_a_setting_is_said(change, message) -> None:
