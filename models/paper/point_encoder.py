@@ -59,7 +59,7 @@ class SetAbstraction(nn.Module):
 class PointEncoder(nn.Module):
     """PointNet++ with three single-scale set-abstraction levels, the last one over all remaining points.
 
-    It is trained to classify label and colour (`models.training.fit_points`), then frozen (MNCL, Text2Pos).
+    It is trained to classify label and colour (`models.training.fit_points`), then frozen; the papers train it further.
     """
 
     def __init__(self) -> None:

@@ -15,15 +15,16 @@ def _mncl(**changes: Any) -> TrainingRun:
 
 
 def _exponent(a: int) -> TrainingRun:
-    return _mncl(exponent=float(a), least_weight=0.0)
+    return _mncl(exponent=float(a), distance="unit")
 
 
 def _without(name: Input) -> TableRow:
     return TableRow(f"without {name}", _mncl(inputs=tuple(other for other in DEFAULT_INPUTS if other != name)))
 
 
-MNCL, RET, TEXT2LOC, TEXT2POS = (TrainingRun(method) for method in ("mncl", "ret", "text2loc", "text2pos"))
-VANILLA, PAPERS_LOSS = _mncl(loss="contrastive"), _mncl(least_weight=0.0)
+MNCL, RET, TEXT2LOC, TEXT2POS_BY_HINT = (TrainingRun(method) for method in ("mncl", "ret", "text2loc", "text2pos"))
+TEXT2POS = TEXT2POS_BY_HINT.with_changes((("text", "whole"),))
+VANILLA, PAPERS_LOSS = _mncl(loss="contrastive"), _mncl(distance="unit")
 LEVELS = {name: _mncl(levels=("global", *name.split())) for name in ("", "instance", "relation")}
 # The fine stages of the papers: without our plain geometry and pointing.
 MATCHING = TrainingRun("matching").with_changes((("plain", False),))
@@ -49,6 +50,7 @@ TABLE_1 = Experiment(
     "Table 1: localization recall within 5/10/15 m",
     (
         _localized("Text2Pos", TEXT2POS, MATCHING, (".13/.21/.25", ".33/.48/.52", ".43/.61/.65"), ".14/.25/.31"),
+        TableRow("Text2Pos, each hint alone", TEXT2POS_BY_HINT, fine=MATCHING),
         _localized("RET", RET, REFINED, (".16/.25/.29", ".35/.51/.56", ".46/.65/.71"), ".19/.30/.37"),
         _localized("Text2Loc", TEXT2LOC, HEAD, (".33/.48/.52", ".61/.75/.78", ".71/.84/.86"), ".37/.57/.63"),
         _localized("MNCL", MNCL, HEAD, (".50/.66/.68", ".76/.87/.89", ".83/.93/.94"), ".54/.75/.79"),
@@ -64,6 +66,7 @@ TABLE_2 = Experiment(
     "Table 2: retrieval recall",
     (
         _retrieved("Text2Pos", TEXT2POS, ".12/.25/.33", ".14/.28/.37"),
+        TableRow("Text2Pos, each hint alone", TEXT2POS_BY_HINT),
         TableRow("RET", RET, validation={"R@1": ".18", "R@3": ".34", "R@5": ".44"}),
         _retrieved("Text2Loc", TEXT2LOC, ".28/.49/.58", ".32/.56/.67"),
         _retrieved("MNCL", MNCL, ".44/.67/.75", ".50/.75/.84"),
@@ -85,7 +88,7 @@ TABLE_4 = Experiment(
     (
         TableRow("vanilla contrastive", VANILLA, {"R@1": ".41"}),
         TableRow("negative contrastive, weights of at least 0.8 (the code; our default)", MNCL),
-        TableRow("negative contrastive, weights of at least 0 (the paper)", PAPERS_LOSS, {"R@1": ".44"}),
+        TableRow("negative contrastive, half the distance, no least weight (the paper)", PAPERS_LOSS, {"R@1": ".44"}),
     ),
     note="Batches are drawn without near neighbours, as the papers draw theirs; `hereabouts train` draws with them, "
     "which helps the vanilla loss more.",
@@ -104,7 +107,7 @@ FIGURE_4A = Experiment(
 )
 FIGURE_4B = Experiment(
     "4b",
-    "Figure 4: exponent a of the negative loss, weights of at least 0 (the paper)",
+    "Figure 4: exponent a of the negative loss, half the distance, no least weight (the paper)",
     (
         TableRow("a = 0", VANILLA),
         *(TableRow(f"a = {a}", PAPERS_LOSS if a == 2 else _exponent(a)) for a in (1, 2, 3, 4)),
@@ -129,7 +132,8 @@ ATTENTION = Experiment(
     "External space attention (equation 11)",
     (
         TableRow("W left out, softmax over edges (our default)", MNCL),
-        TableRow("W left out, softmax over channels (the code)", _mncl(attention_axis="channels")),
+        TableRow("W left out, softmax over channels", _mncl(attention_axis="channels")),
+        TableRow("W left out, softmax over first nodes, edges before nodes (the code)", _mncl(attention_axis="code")),
         TableRow("W learned, softmax over edges", _mncl(attention_query="mixed")),
         TableRow(
             "W learned, softmax over channels (the paper)", _mncl(attention_axis="channels", attention_query="mixed")
@@ -144,6 +148,9 @@ CODE = Experiment(
     (
         TableRow("nodes pass on their own state (code; our default)", MNCL),
         TableRow("nodes gather their edges (the paper's GCN)", _mncl(aggregate="gcn")),
+        TableRow("hints and instances matched in both directions (the paper)", _mncl(matching="both")),
+        TableRow("half the distance, two logarithms", PAPERS_LOSS),
+        TableRow("half the distance, one logarithm (the paper)", _mncl(distance="unit", logarithms="one")),
     ),
     variants=("our inputs",),
     every_seed=False,

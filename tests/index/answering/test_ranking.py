@@ -52,8 +52,8 @@ def test_the_matching_of_the_retriever_ranks(text_encoder, cells, labels) -> Non
     ranker, rows = Ranker.from_cells(both, cells, labels), np.arange(9)
     [text] = both.encode_texts(TEXTS[:1])
     expected = WEIGHTS[0] * ranker.store.score(text.global_vectors[0].numpy(), rows)
-    for weight, level in zip(WEIGHTS[1:], ("instance", "relation"), strict=True):
-        expected = expected + weight * ranker.table.scores([text], rows, "both")[level][0]
+    by_level = ranker.table.scores([text], rows, "both")
+    expected = expected + WEIGHTS[1] * by_level["instance"][0] + WEIGHTS[2] * by_level["relation"][0]
     assert ranker.score(text, rows) == pytest.approx(expected, abs=1e-5)
 
 

@@ -24,7 +24,7 @@ from models.training.experiments import (
     fine_pairs,
     required_runs,
 )
-from models.training.paper_tables import EXPERIMENTS, GROWTH, HEAD, MNCL, RET, TABLE_1, TABLE_2, TEXT2LOC, TEXT2POS
+from models.training.paper_tables import EXPERIMENTS, GROWTH, HEAD, MNCL, TABLE_1, TABLE_2, TEXT2LOC
 from models.training.settings import load_settings
 
 REGRESSOR = TrainingRun("regressor")
@@ -96,11 +96,13 @@ def test_further_seeds_make_the_tables_alone() -> None:
 
 def test_variants_differ_in_their_inputs_alone() -> None:
     runs = required_runs((TABLE_2,), every_seed=True)
+    points = "-inputs=points+colour+position+count"
     assert {run.name for run in runs} == {
-        f"{method}{suffix}" for method in ("mncl", "ret", "text2loc", "text2pos")
-        for suffix in ("", "-inputs=points+colour+position+count")
-    }  # fmt: skip
-    assert sum(run.needs_points for run in runs) == 4
+        f"{method}{inputs}{text}"
+        for method, text in (("mncl", ""), ("ret", ""), ("text2loc", ""), ("text2pos", ""), ("text2pos", "-text=whole"))
+        for inputs in ("", points)
+    }
+    assert sum(run.needs_points for run in runs) == 5
     assert (MNCL, HEAD) in fine_pairs((TABLE_1,))
     assert all(coarse.needs_points == fine.needs_points for coarse, fine in fine_pairs((TABLE_1,)))
 
@@ -210,7 +212,7 @@ def test_an_order_within_the_sampling_error_or_at_chance_is_undecided(below, abo
 
 def test_a_report_of_some_tables_has_no_others(tmp_path) -> None:
     reproduction = found_of(0) | {"experiments": ["2"]}
-    runs = {apply_variant(run, v).name for run in (MNCL, RET, TEXT2LOC, TEXT2POS) for v in TABLE_2.variants}
+    runs = {apply_variant(row.run, variant).name for row, variant in TABLE_2.row_variants()}
     reproduction["runs"] = {name: results for name, results in reproduction["runs"].items() if name in runs}
     for n in (3, 4):
         (tmp_path / f"figure{n}.png").write_bytes(b"old")
