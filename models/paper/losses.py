@@ -62,8 +62,9 @@ def negative_weights(texts: Tensor, cells: Tensor, exponent: float, least: float
     """Return w_ij = (1 - d_ij)^(1/a), at least `least`, [B, B], for the mean vectors [B, D] of texts and cells.
 
     d is the distance of the unit vectors, divided by its maximum in the batch (scale "batch", as in the released code)
-    or by 2, its maximum for any two unit vectors ("unit"); the paper only says that d is at most 1. The paper has no
-    least weight, its code has 0.8. The weights have no gradient; the exponent a is above 0.
+    or by 2, its maximum for any two unit vectors ("unit": half the distance, not (1 - cosine) / 2). The paper does not
+    normalise d, which must be at most 1. It has no least weight; its code has 0.8. The weights have no gradient; the
+    exponent a is above 0.
     """
     unit = torch.nn.functional.normalize
     with torch.no_grad():
