@@ -85,7 +85,7 @@ def measure_parts(localizer: "Localizer", texts: Sequence[tuple[str, ...]]) -> d
         bound_hints = posterior.binding.bind(hints)
         rows = _timed(steps["candidates"], posterior.search, hints, bound_hints)
         evidence = PositionEvidence(bound_hints)
-        _timed(steps["posterior"], partial(locate, extra_cells=rows), posterior.nodes, evidence)
+        _timed(steps["posterior"], partial(locate, proposed=rows), posterior.nodes, evidence)
         encoded = _timed(steps["encode"], retriever.encode_texts, [text])
         _timed(steps["vector_search"], ranker.rank, encoded, RANKED_CELLS)
     surroundings, cells = posterior.surroundings, len(localizer.gallery.cells)

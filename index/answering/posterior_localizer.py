@@ -48,6 +48,7 @@ from models.posterior.statements import Statements
 CACHED_DESCRIPTIONS = 256  # retriever vectors of the latest descriptions
 PLACE_CANDIDATE_CELLS = 128  # examined cells for texts that name places
 REPLY_CANDIDATE_CELLS = 1024  # without hints: a reply may name a street of some kilometres
+MIN_MARGIN_NATS = 4.0  # of the first retrieved cell over the last; fitted on validation (docs/method.md#candidates)
 EXPLAINED_PROBABILITY = 0.5  # from here on a hint counts as explained
 NO_HINTS = (
     "the description does not say what is around the speaker; mention objects and directions, for example "
@@ -71,7 +72,7 @@ class PosteriorLocalizer:
         palette: Palette,
         frame: Frame,
         surroundings: NeighbourIndex,
-        ranker: Ranker,  # adds candidates to those of the inverted list
+        ranker: Ranker,  # proposes the candidates
         gazetteer: Gazetteer = EMPTY_GAZETTEER,
         grid_m: float = 10.0,
         meanings: Meanings | None = None,  # None to go without paraphrases
@@ -202,8 +203,9 @@ class PosteriorLocalizer:
             area=self._inside(query),
         )
         candidates = PLACE_CANDIDATE_CELLS if place_evidence is not None else count
-        extra_cells = None if bound_hints is None else self.search(hints, bound_hints)
-        located = locate(self.nodes, evidence, candidates, extra_cells)
+        # Vectors know nothing of other evidence, the scores of the inverted list contain it.
+        proposed = self.search(hints, bound_hints) if bound_hints is not None and evidence.is_hints_only else None
+        located = locate(self.nodes, evidence, candidates, proposed)
         return located and self._calibrate_radii(located, query, place_evidence)
 
     def _inside(self, query: Query) -> AreaFilter | None:
@@ -218,12 +220,16 @@ class PosteriorLocalizer:
         is_for_listener = query.prior is not None or is_meeting(query.description)
         return replace(located, radius_scale=config.meeting_scale if is_for_listener else config.place_scale)
 
-    def search(self, hints: Sequence[ParsedHint], bound_hints: BoundHints) -> Ints:
-        """Return the cells [A] that the vector index finds for hints in the retriever's words."""
+    def search(self, hints: Sequence[ParsedHint], bound_hints: BoundHints) -> Ints | None:
+        """Return the cells [A] that the vector index retrieves for hints in the retriever's words.
+
+        None if there are no such words, or the margin is low; then the inverted list proposes.
+        """
         sentences = self.binding.sentences(hints, bound_hints)
         if not sentences:
-            return np.empty(0, np.int64)
-        return self.ranker.search([self._encoded(sentences)], CANDIDATE_CELLS)[1][0]
+            return None
+        scores, rows = self.ranker.search([self._encoded(sentences)], CANDIDATE_CELLS)
+        return rows[0] if self.ranker.margin_nats(scores[0], len(sentences)) >= MIN_MARGIN_NATS else None
 
     def _encode(self, sentences: tuple[str, ...]) -> Levels:
         return self.ranker.retriever.encode_description(sentences)

@@ -71,6 +71,10 @@ class Ranker:
         """Return the temperature of the probabilities, as `Retriever.temperature`."""
         return self.retriever.temperature(num_hints, self._is_global)
 
+    def margin_nats(self, scores: Floats, num_hints: int) -> float:
+        """Return the log ratio of the probabilities of a text's first and last cell, given their scores by `search`."""
+        return float(scores[0] - scores[-1]) / self.retriever.temperature(num_hints, global_only=True)
+
     @property
     def _is_global(self) -> bool:
         return self.table.is_empty or not self.depth

@@ -30,6 +30,7 @@ class PositionDistribution:
     weight: Floats  # [M] probability of each point; adds up to 1 - other
     spacing_m: float  # edge of the square that each point stands for
     extent_m: float  # radius that contains the whole map
+    is_retrieved: bool = True  # whether the vector index proposed the cells; False for the inverted list
     calibrated_masses: tuple[float, float] = RADIUS_MASSES  # mass that contains RADIUS_MASSES of the truths
     radius_scale: float = 1.0  # factor on radii; like the masses from validation data
 

@@ -24,30 +24,30 @@ COARSENING: Final = 2
 MAX_GAP_NATS: Final = 9.0  # by the coarse grid; cells further behind are not evaluated at all nodes
 FAR_GAP_NATS: Final = 20.0  # by the inverted list; cells further behind get a grid twice as coarse, without mentions
 _SAMPLE_STRIDE: Final = 16  # the sample of scores that bounds the best ones
-_TAIL_CELLS: Final = 30  # last candidates, from which the mass of all other cells is estimated
+_TAIL_CELLS: Final = 30  # candidates that score most like the others, from which the mass of these is estimated
 
 
 def locate(
     posterior: HintPosterior,
     evidence: PositionEvidence,
     candidates: int = CANDIDATE_CELLS,
-    extra_cells: Ints | None = None,
+    proposed: Ints | None = None,
 ) -> PositionDistribution | None:
     """Return the distribution over positions; None if the area contains no node.
 
     Args:
         posterior: of the gallery.
         evidence: about the position.
-        candidates: number of cells to evaluate, the best by approximate score.
-        extra_cells: [A] more cells to evaluate.
+        candidates: number of cells to evaluate if the inverted list proposes them, the best by approximate score.
+        proposed: [A] cells to evaluate instead, unless all score lower than the best of the list.
     """
     scores = _cell_scores(posterior, evidence)
-    listed = best_rows(scores, min(candidates, len(scores)))
-    if not len(listed):
+    is_retrieved = proposed is not None and len(proposed) > 0 and scores[proposed].max() == scores.max()
+    chosen = best_rows(scores, min(candidates, len(scores)))
+    if proposed is not None and is_retrieved:
+        chosen = _in_order(proposed[scores[proposed] > -np.inf], scores)
+    if not len(chosen):
         return None
-    chosen = listed
-    if extra_cells is not None:
-        chosen = np.concatenate([listed, np.setdiff1d(extra_cells[scores[extra_cells] > -np.inf], listed)])
     score = scores[chosen]
     others = scores
     others[chosen] = -np.inf
@@ -56,8 +56,8 @@ def locate(
     mass = _log_mass(field)
     rest = -np.inf
     if (highest := others.max()) > -np.inf:
-        tail = slice(max(0, len(listed) - _TAIL_CELLS), len(listed))
-        gap = np.median(mass[tail] - score[tail])
+        alike = np.argsort(np.abs(score - highest)[::-1], kind="stable")[:_TAIL_CELLS]
+        gap = np.median((mass - score)[::-1][alike])
         behind = np.subtract(others, highest, out=others)
         rest = float(gap + highest + np.log(np.exp(behind, out=behind).sum()))
     total = np.logaddexp(np.logaddexp.reduce(mass), rest)
@@ -76,6 +76,7 @@ def locate(
         weight=weight,
         spacing_m=SPACING_M,
         extent_m=posterior.extent_m,
+        is_retrieved=is_retrieved,
     )
 
 
@@ -90,7 +91,12 @@ def best_rows(scores: Floats, count: int) -> Ints:
     lowest = np.partition(high, -count)[-count] if len(high) > count else -np.inf
     above = np.flatnonzero(high > lowest)
     chosen = rows[np.concatenate([above, np.flatnonzero(high == lowest)[: count - len(above)]])]
-    return chosen[np.lexsort((chosen, -scores[chosen]))]
+    return _in_order(chosen, scores)
+
+
+def _in_order(rows: Ints, scores: Floats) -> Ints:
+    """Return rows by score, highest first, then in order of rows."""
+    return rows[np.lexsort((rows, -scores[rows]))]
 
 
 def _field(posterior: HintPosterior, evidence: PositionEvidence, chosen: Ints, coarsening: Ints) -> Field:

@@ -37,6 +37,12 @@ class PositionEvidence:
     log_prior: LogPrior | None = None  # log density of positions [M, 2], up to a constant
     area: AreaFilter | None = None
 
+    @property
+    def is_hints_only(self) -> bool:
+        """Whether nothing but hints is known."""
+        others = self.places, self.replies, self.log_prior, self.area
+        return self.hints is not None and all(part is None for part in others)
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Field:

@@ -104,6 +104,31 @@ def test_answers_bring_in_cells_that_were_not_listed() -> None:
     assert after.weight[after.points == 3] > 0.9
 
 
+def test_proposed_cells_replace_the_list_if_its_best_cell_is_among_them() -> None:
+    log_p = np.array([0.5, -0.5, 0.1, -2.0, 0.3, -7.0])
+    posterior = posterior_of(np.array([[30.0 * n, 0] for n in range(6)]), log_p, list(range(7)))
+    good = locate(posterior, SOMETHING, candidates=2, proposed=np.array([3, 4, 0]))
+    poor = locate(posterior, SOMETHING, candidates=2, proposed=np.array([3, 4, 1]))
+    assert good is not None
+    assert poor is not None
+    assert (good.is_retrieved, good.rows.tolist()) == (True, [0, 4, 3])
+    assert (poor.is_retrieved, poor.rows.tolist()) == (False, [0, 1])
+    for located in (good, poor):
+        usual = np.median([log_p[row] + row for row in located.rows])  # cell n scores -n
+        others = sum(np.exp(usual - row) for row in range(6) if row not in located.rows)
+        assert located.other == pytest.approx(others / (others + sum(np.exp(log_p[located.rows]))))
+
+
+def test_the_mass_of_other_cells_follows_from_those_that_score_like_them() -> None:
+    log_p = np.where(np.arange(80) < 40, 0.0, -5.0) - np.arange(80.0)  # as scored, but for the last 40
+    posterior = posterior_of(np.array([[30.0 * n, 0] for n in range(80)]), log_p, list(range(81)))
+    posterior.cell_scores = lambda _hints, _cells: -np.arange(80.0)
+    proposed = np.setdiff1d(np.arange(80), [60])
+    located = locate(posterior, SOMETHING, proposed=proposed)
+    assert located is not None
+    assert located.other == pytest.approx(np.exp(-65.0) / np.exp(log_p).sum(), rel=1e-6)
+
+
 @pytest.mark.parametrize("possible", [0, 1, 40, 99, 100, 101, 900, 5000])
 @pytest.mark.parametrize("differ", [2, 10**6])
 def test_the_best_rows_are_those_of_a_sort_whatever_is_ruled_out(possible, differ) -> None:

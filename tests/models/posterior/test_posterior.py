@@ -104,11 +104,12 @@ def test_probabilities_add_up_and_radii_are_in_order(town):
         assert (eigenvalues > 0).all()
 
 
-def test_cells_found_in_another_way_count_once(town):
+def test_proposed_cells_are_evaluated_instead_of_those_of_the_list(town):
     cells = np.arange(len(town.posterior.cells))
     for hints in town.bound_hints[:10]:
         part, whole = (locate(town.posterior, PositionEvidence(hints), candidates=n) for n in (20, len(cells)))
-        joined = locate(town.posterior, PositionEvidence(hints), candidates=20, extra_cells=cells)
+        joined = locate(town.posterior, PositionEvidence(hints), candidates=20, proposed=cells[::-1])
+        assert (joined.is_retrieved, part.is_retrieved) == (True, False)
         assert part.other > 0
         assert joined.other == whole.other == 0
         assert joined.rows.tolist() == whole.rows.tolist()
