@@ -11,8 +11,10 @@ from index.answering.ranking import Ranker
 from index.answering.result import to_answer
 from index.evaluation.evaluation import evaluate
 from index.evaluation.localizers import posterior_of_map
+from index.stores.faiss_store import FaissStore
 from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import COLOURS
+from models.paper.checkpoint import load_retriever
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior, save_posterior
 from models.posterior.neighbours.neighbour_index import build_neighbour_index
 
@@ -185,3 +187,51 @@ def test_a_localizer_answers_by_either_way(index_dir, weights_dir, posterior_mod
     assert by_vectors.estimate.method == "cell_center"
     assert by_posterior.estimate.method == "posterior"
     assert by_posterior.timings_ms.keys() == {"encode", "search", "estimate"}
+
+
+@pytest.fixture(scope="module")
+def trained(source):
+    """The shipped models on the town."""
+    data, retriever = source.data, load_retriever().global_only()
+    ranker = Ranker.from_cells(retriever, data.cells, data.gallery.labels)
+    return posterior_of_map(load_posterior(), data, ranker, build_neighbour_index(source.geometry(), data.cells))
+
+
+def test_vectors_propose_and_the_list_does_where_they_are_shuffled(trained, data_and_queries, monkeypatch):
+    queries = [Query(" ".join(hints)) for hints in data_and_queries[1].sentences[::10] if len(hints) == 6]
+    assert len(queries) >= 20
+    own = [result.located for result in trained.find(queries)]
+    assert np.mean([located.is_retrieved for located in own]) > 0.5
+    mixed = np.random.default_rng(0).permutation(len(trained.ranker.store))
+    monkeypatch.setattr(trained.ranker, "store", FaissStore.from_vectors(trained.ranker.store.vectors(mixed)))
+    shuffled = [result.located for result in trained.find(queries)]
+    pairs = list(zip(own, shuffled, strict=True))
+    affected = [not b.is_retrieved or not np.allclose(a.positions[0], b.positions[0]) for a, b in pairs]
+    assert np.mean(affected) >= 0.3
+    assert np.mean([located.is_retrieved for located in shuffled]) < 0.3
+
+
+def test_the_list_proposes_where_the_margin_is_low(trained, data_and_queries, monkeypatch):
+    text, store = " ".join(data_and_queries[1].sentences[0]), trained.ranker.store
+    hints = trained.chunk_reader.parse([text])[0]
+    bound_hints = trained.binding.bind(hints)
+    sentences = trained.binding.sentences(hints, bound_hints)
+    retriever = trained.ranker.retriever
+    encoded = retriever.encode_description(sentences).global_vectors[0].numpy()
+    cosines = sorted((float(vector @ encoded) for vector in store.vectors(np.arange(len(store)))), reverse=True)
+    config = retriever.config
+    temperature = config.global_temperature / len(sentences) ** config.global_temperature_decay
+    margin_nats = (cosines[0] - cosines[99]) / temperature
+    for limit, is_used in ((margin_nats - 0.01, True), (margin_nats + 0.01, False)):
+        monkeypatch.setattr("index.answering.posterior_localizer.MIN_MARGIN_NATS", limit)
+        assert (trained.search(hints, bound_hints) is not None) == is_used
+
+
+def test_the_list_proposes_where_the_retriever_understands_nothing_or_more_is_known(trained, data_and_queries):
+    text = " ".join(data_and_queries[1].sentences[0])
+    [plain, pulled] = trained.find([Query(text), Query(text, prior=Prior((0.0, 0.0), 500.0))])
+    assert plain.located.is_retrieved
+    assert not pulled.located.is_retrieved
+    hints = trained.chunk_reader.parse(["I am north of a flurble."])[0]
+    assert hints
+    assert trained.search(hints, trained.binding.bind(hints)) is None
