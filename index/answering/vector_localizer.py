@@ -11,13 +11,14 @@ from index.answering.filters import is_inside, log_prior
 from index.answering.query import Query
 from index.answering.ranking import Ranker
 from index.answering.result import LocalizerResult, elapsed_ms
+from models.citymap.cells import PartTable
 from models.citymap.frame import Frame
 from models.citymap.gallery import Gallery
 from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.language.sentences import split_hints
 from models.paper.fine.fine_model import FineModel
-from models.paper.instance_encoder import CellFeatures
+from models.paper.instance_encoder import CellFeatures, UncutCells
 from models.paper.levels import Levels
 from models.posterior.distribution import PositionDistribution
 
@@ -49,10 +50,13 @@ class VectorLocalizer:
         model = refiner or ranker.retriever
         self.model = ModelName(model.name, model.fingerprint)  # computed once, because it reads all weights
         self._centers, self._extent_m = gallery.cells.center_m[:, :2].astype(np.float64), gallery.cells.extent_m
-        self._features: CellFeatures | None = None
+        self._features: CellFeatures | UncutCells | None = None
         if refiner:
-            features = CellFeatures.from_cells(gallery.cells, np.array(gallery.labels))
-            self._features = refiner.with_point_features(features)
+            labels = np.array(gallery.labels)
+            if isinstance(gallery.cells.content, PartTable):
+                self._features = refiner.with_point_features(CellFeatures.from_cells(gallery.cells, labels))
+            else:
+                self._features = refiner.with_point_features(UncutCells.from_cells(gallery.cells, labels))
 
     @property
     def method(self) -> Method:

@@ -165,6 +165,37 @@ class CellFeatures:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class UncutCells:
+    """The cells of an index of a map, which are cut when a batch needs them: cutting all takes seconds for a city."""
+
+    cells: CellTable
+    code: Ints  # [I] index into `labels` of each instance of the map
+    labels: tuple[str, ...]  # L class names
+
+    @classmethod
+    def from_cells(cls, cells: CellTable, instance_labels: npt.NDArray[Any]) -> "UncutCells":
+        """Return the cells of a table, of which none is cut yet."""
+        labels, code = np.unique(instance_labels, return_inverse=True)
+        return cls(cells, code.astype(np.int32), tuple(labels.tolist()))
+
+    def __len__(self) -> int:
+        return len(self.cells)
+
+    def with_point_features(self, encoder: PointEncoder | None) -> "UncutCells":
+        """Return itself; raise WeightsError if there is an encoder, because an index has no points."""
+        if encoder is not None:
+            self._cut(np.zeros(0, np.int64)).points(np.zeros(0, np.int64))
+        return self
+
+    def batch(self, cells: npt.NDArray[Any]) -> "CellBatch":
+        """Do as `CellFeatures.batch`, and cut these cells alone."""
+        return self._cut(cells).batch(np.arange(len(cells)))
+
+    def _cut(self, rows: Ints) -> CellFeatures:
+        return CellFeatures._build(self.cells.take(rows), self.labels, self.code)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class CellBatch:
     """Cells as padded tensors."""
 

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -20,6 +20,7 @@ from models.paper.instance_encoder import (
     CellFeatures,
     Input,
     InstanceEncoder,
+    UncutCells,
     geometry_columns,
 )
 from models.paper.layers import HintEncoder
@@ -29,6 +30,7 @@ HINT_CACHE_SIZE = 20_000  # sentences; 10 MB at D = 128
 PAIRS_PER_BATCH = 1024  # pairs of description and cell; bounds the memory of a prediction
 Offsets = npt.NDArray[np.float64]
 FineMethod = Literal["regressor", "matching"]
+Cells = TypeVar("Cells", CellFeatures, UncutCells)
 
 
 class FineConfig(BaseModel):
@@ -141,7 +143,7 @@ class FineModel(TextEncoderModel):
         features: Tensor = self.hint_encoder(tokens.values.to(self.device), tokens.mask.to(self.device))
         return features
 
-    def with_point_features(self, cells: CellFeatures) -> CellFeatures:
+    def with_point_features(self, cells: Cells) -> Cells:
         """Return cells with the features of the model's point encoder, or unchanged if it has none."""
         return cells.with_point_features(self.points)
 
@@ -167,7 +169,10 @@ class FineModel(TextEncoderModel):
 
     @torch.inference_mode()
     def predict(
-        self, descriptions: Sequence[Sequence[str]], cells: CellFeatures, rows: npt.NDArray[np.integer[Any]]
+        self,
+        descriptions: Sequence[Sequence[str]],
+        cells: CellFeatures | UncutCells,
+        rows: npt.NDArray[np.integer[Any]],
     ) -> Offsets:
         """Predict the position of each of Q descriptions in each of its candidate cells.
 

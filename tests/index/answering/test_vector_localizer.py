@@ -14,6 +14,7 @@ from models.errors import WeightsError
 from models.paper.fine.checkpoint import load_refiner, save_fine
 from models.paper.fine.matching import Matching, MatchingConfig
 from models.paper.fine.regressor import Regressor, RegressorConfig
+from models.paper.instance_encoder import CellFeatures
 
 TEXT = "I am north of a red building. A bench is to my west. I stand on the road."
 
@@ -134,3 +135,18 @@ def test_weights_are_missed_only_when_asked_for(index_dir, weights_dir, tmp_path
     assert estimate.method == "cell_center"
     with pytest.raises(WeightsError, match=r"no weights in .*--method regressor"):
         fine.localize([Query(TEXT, refine="regressor")])
+
+
+def test_positions_follow_from_the_candidates_alone(localizer, regressor) -> None:
+    whole = Localizer(localizer._directory, localizer.manifest, localizer.retriever, lambda _: regressor)
+    cut, cut_parts = [], whole.gallery.cells.content
+    cells = dataclasses.replace(whole.gallery.cells, content=lambda rows: cut.append(len(rows)) or cut_parts(rows))
+    whole.gallery = dataclasses.replace(whole.gallery, cells=cells)
+    [refined] = whole.localize([Query(TEXT, 3, refine="regressor")])
+    assert 0 < sum(cut) <= 3
+    features = CellFeatures.from_cells(localizer.gallery.cells, np.array(localizer.gallery.labels))
+    rows = np.array([[cells.ids.index(candidate.cell_id) for candidate in refined.candidates]])
+    offset = regressor.predict(whole.sentences([TEXT]), features, rows)[0]
+    for k, candidate in enumerate(refined.candidates):
+        expected = cells.center_m[rows[0, k], :2] + (offset[k] - 0.5) * cells.size_m
+        assert candidate.position == pytest.approx(expected, abs=2e-3)
