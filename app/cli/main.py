@@ -73,10 +73,9 @@ def index(
     levels: Annotated[
         bool,
         typer.Option(
-            "--levels",
-            help="store all levels of the retriever, for other values of refine than posterior: 6 kB per cell",
+            help="store all levels of the retriever, for other values of refine than posterior: 0.7 kB per cell",
         ),
-    ] = False,
+    ] = True,
     store: Annotated[
         Literal["faiss", "milvus"],
         typer.Option(help="store of the vectors: a file, or the Milvus server of HEREABOUTS_MILVUS_URI"),

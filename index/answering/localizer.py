@@ -43,7 +43,7 @@ from models.language.text_encoder import load_text_encoder
 from models.paper.checkpoint import load_retriever
 from models.paper.fine.checkpoint import load_refiner
 from models.paper.fine.fine_model import FineMethod, FineModel
-from models.paper.level_table import STARTS_FILE
+from models.paper.level_table import FILE as LEVELS_FILE
 from models.paper.retriever import Retriever
 from models.posterior.model import PosteriorModel, load_posterior
 from models.posterior.neighbours.neighbour_index import NeighbourIndex, load_neighbour_index
@@ -192,7 +192,7 @@ class Localizer:
 
     @cached_property
     def _vectors(self) -> VectorLocalizer:
-        has_levels = STARTS_FILE in self.manifest.files
+        has_levels = LEVELS_FILE in self.manifest.files
         ranker = Ranker.load(self.retriever, self._directory, self.ranker.store) if has_levels else self.ranker
         return VectorLocalizer(ranker, self.gallery, self.frame, self.manifest.grid_m, sentences=self.sentences)
 

@@ -4,7 +4,7 @@
 <root>/<version>/manifest.json written last; names every other file with its sha256
 <root>/<version>/vectors.faiss                 one vector per cell; absent if they are in Milvus
 <root>/<version>/hints.safetensors             the retriever's vectors of every template hint about the map
-<root>/<version>/levels.starts.npy, levels.<level>.npy   the retriever's other levels, with --levels
+<root>/<version>/levels.safetensors            the retriever's other levels, unless built with --no-levels
 <root>/<version>/cells.safetensors, cells.json the cells and their content
 <root>/<version>/pieces.safetensors or surroundings.safetensors   the instances near each position
 <root>/<version>/statements.safetensors        the inverted list: the cells in which a statement holds

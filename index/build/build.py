@@ -17,7 +17,7 @@ from models.citymap.cells import CELLS_PER_BLOCK
 from models.citymap.types import Progress
 from models.errors import IndexUnusable
 from models.paper.checkpoint import load_retriever
-from models.paper.level_table import STARTS_FILE
+from models.paper.level_table import FILE as LEVELS_FILE
 from models.paper.retriever import Retriever
 from models.posterior.model import PosteriorModel, load_posterior
 from models.posterior.neighbours.neighbour_index import build_neighbour_index
@@ -50,7 +50,7 @@ class IndexJob:
     weights_dir: Path | None = None
     split: str | None = None
     keep_current: bool = False  # build nothing if the default version was built from this map by this model
-    levels: bool = False  # also store the retriever's other levels, which every `refine` but the default ranks by
+    levels: bool = True  # also store the retriever's other levels, which every `refine` but the default ranks by
     store: StoreName = "faiss"  # where the vectors go: a file, or the Milvus server that HEREABOUTS_MILVUS_URI names
     within: Region | None = None  # the region of an OpenStreetMap file to index; None for all of it
 
@@ -175,6 +175,6 @@ class IndexJob:
             check_store(manifest)
         except IndexUnusable:
             return None
-        is_rich = STARTS_FILE in manifest.files or models.retriever.levels == ("global",) or not self.levels
+        is_rich = LEVELS_FILE in manifest.files or models.retriever.levels == ("global",) or not self.levels
         is_same = manifest.store == self.store and manifest.map_sha256 == models.map_sha256
         return directory if is_rich and is_same else None

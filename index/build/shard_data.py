@@ -116,15 +116,16 @@ def explain_write_errors(out_dir: Path) -> Iterator[None]:
 
 
 def _encode_cells(retriever: Retriever, data: MapData, rows: range, report: Progress) -> tuple[Floats, LevelTable]:
-    """Encode cells span by span: vectors [C, D] and the other levels."""
+    """Encode cells span by span: vectors [C, D] and the other levels, compact."""
     labels = np.array(data.gallery.labels)
-    levels = [level for level in retriever.levels if level != "global"]
-    names = ["vectors", *levels]
+    report("encode cells", 0, len(rows))
+    sample = _encode_sample(retriever, data, labels)
+    bases, levels = sample.fit_bases(), list(sample.vectors)
 
     def columns() -> Iterator[dict[str, npt.NDArray[Any]]]:
-        none = np.empty((0, retriever.config.width), np.float32)
-        yield {"sizes": np.empty(0, np.int64)} | dict.fromkeys(names, none)
-        report("encode cells", 0, len(rows))
+        yield {"sizes": np.empty(0, np.int64), "vectors": np.empty((0, retriever.config.width), np.float32)} | {
+            level: np.empty((0, basis.shape[1]), np.int8) for level, basis in bases.items()
+        }
         spans = [
             range(first, min(first + CELLS_PER_SPAN, rows.stop))
             for first in range(rows.start, rows.stop, CELLS_PER_SPAN)
@@ -133,12 +134,20 @@ def _encode_cells(retriever: Retriever, data: MapData, rows: range, report: Prog
             with_points = retriever.with_point_features(features)
             drop_pages()  # of the parts of these cells
             vectors, table = encode_gallery(retriever, with_points, map_forked)
-            made = [vectors, *(table.vectors[level] for level in levels)]
-            yield {"sizes": np.diff(table.starts)} | dict(zip(names, made, strict=True))
+            codes = table.compact(bases).vectors
+            yield {"sizes": np.diff(table.starts), "vectors": vectors} | {level: codes[level] for level in levels}
             report("encode cells", span.stop - rows.start, len(rows))
 
     columns_read = spooled(columns())
-    table = LevelTable(
-        np.concatenate([[0], np.cumsum(columns_read["sizes"])]), {level: columns_read[level] for level in levels}
-    )
+    starts = np.concatenate([[0], np.cumsum(columns_read["sizes"])])
+    table = LevelTable(starts, {level: columns_read[level] for level in levels}, bases)
     return columns_read["vectors"], table if levels else EMPTY_LEVEL_TABLE
+
+
+def _encode_sample(retriever: Retriever, data: MapData, labels: npt.NDArray[Any]) -> LevelTable:
+    """Return the levels of cells spread over the whole map, the same for each shard."""
+    if retriever.levels == ("global",):
+        return EMPTY_LEVEL_TABLE
+    rows = np.unique(np.linspace(0, len(data.cells) - 1, CELLS_PER_BLOCK).astype(np.int64))
+    features = CellFeatures.from_cells(data.cells.take(rows), labels)
+    return encode_gallery(retriever, retriever.with_point_features(features))[1]

@@ -23,7 +23,7 @@ from models.files import FileRecord, file_records, new_directory, sha256
 from models.paper.levels import Level
 
 SHARDS_DIR: Final = ".parts"
-FORMAT: Final = 2
+FORMAT: Final = 3
 
 
 class Origin(BaseModel):
@@ -51,7 +51,7 @@ class Origin(BaseModel):
             return "was made from another map, split or region"
         if other.model_copy(update={"levels": self.levels}) != self:
             return "was made by another model"
-        return None if other == self else f"was made {'with' if other.levels else 'without'} --levels"
+        return None if other == self else f"was made with {'--levels' if other.levels else '--no-levels'}"
 
 
 class ShardManifest(BaseModel):

@@ -47,11 +47,11 @@ def run(*arguments):
 
 
 def test_a_shard_is_made_and_what_comes_next_is_said(calls) -> None:
-    result = run("--shard", "2/4", "--levels")
+    result = run("--shard", "2/4", "--no-levels")
     assert result.stdout == (
         "shard 2/4 is in o/.parts/x/2-of-4; once all 4 are built, run this with --merge 4 instead of --shard 2/4\n"
     )
-    assert calls == [(Path("a.osm"), Path("o"), False, True, "faiss", Shard(2, 4))]
+    assert calls == [(Path("a.osm"), Path("o"), False, False, "faiss", Shard(2, 4))]
 
 
 def test_shards_are_merged_here_or_made_in_a_cluster(calls) -> None:
@@ -62,9 +62,9 @@ def test_shards_are_merged_here_or_made_in_a_cluster(calls) -> None:
     assert run("--engine", "ray").exit_code == 0
     given = Path("a.osm"), Path("o")
     assert calls == [
-        (*given, True, False, "milvus", 4),
-        (*given, False, False, "faiss", 3, "head:6379"),
-        (*given, False, False, "faiss", None, None),
+        (*given, True, True, "milvus", 4),
+        (*given, False, True, "faiss", 3, "head:6379"),
+        (*given, False, True, "faiss", None, None),
     ]
 
 

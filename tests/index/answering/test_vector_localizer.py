@@ -7,6 +7,7 @@ import torch
 from index.answering.localizer import Localizer
 from index.answering.query import Circle, Query
 from index.answering.ranking import Ranker
+from index.build.build import IndexJob
 from index.evaluation.evaluation import evaluate
 from index.evaluation.localizers import vectors_of_map
 from index.evaluation.predictions import PREDICTIONS_FILE, Predictions
@@ -135,6 +136,21 @@ def test_weights_are_missed_only_when_asked_for(index_dir, weights_dir, tmp_path
     assert estimate.method == "cell_center"
     with pytest.raises(WeightsError, match=r"no weights in .*--method regressor"):
         fine.localize([Query(TEXT, refine="regressor")])
+
+
+def test_an_index_ranks_by_all_levels_without_an_option(deep_file, rich_dir, mncl, tmp_path) -> None:
+    localizer = Localizer.open(IndexJob(deep_file, tmp_path, rich_dir).build(), rich_dir)
+    table, gallery = localizer.vector_localizer("none").ranker.table, localizer.gallery
+    exact = Ranker.from_cells(mncl, gallery.cells, gallery.labels).table
+    texts = mncl.encode_texts([("I am north of a tree.", "A bench is east of me.")])
+    rows = np.arange(len(gallery.cells))
+    expected = exact.scores(texts, rows)
+    assert set(expected) == {"instance", "relation"}
+    for level, scores in table.scores(texts, rows).items():
+        assert scores == pytest.approx(expected[level], abs=0.02)
+    without = Localizer.open(IndexJob(deep_file, tmp_path, rich_dir, levels=False).build(), rich_dir)
+    assert without.vector_localizer("none").ranker.table.is_empty
+    assert without.localize([Query(TEXT, refine="none")])[0].status != "no_match"
 
 
 def test_positions_follow_from_the_candidates_alone(localizer, regressor) -> None:

@@ -75,7 +75,7 @@ def test_cut_changed_and_missing_files_are_noticed(copy, name) -> None:
             check(copy)
 
 
-@pytest.mark.parametrize("text", ["", "{", "[]", '{"format": 10}'])
+@pytest.mark.parametrize("text", ["", "{", "[]", '{"format": 11}'])
 def test_a_broken_manifest_is_noticed(copy, text) -> None:
     version_file(copy, "manifest.json").write_text(text)
     with pytest.raises(IndexBroken, match=r"manifest.json (is broken|was changed)"):

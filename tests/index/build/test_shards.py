@@ -65,7 +65,7 @@ def test_shards_give_the_bytes_of_the_whole(deep_index, job) -> None:
     whole = index_facts(deep_index)
     assert index_facts(job.out_dir) == whole
     assert {path.name for path in version.iterdir()} == {*whole["files"], "manifest.json"}
-    assert {"levels.instance.npy", "levels.relation.npy", "statements.safetensors"} <= whole["files"].keys()
+    assert {"levels.safetensors", "statements.safetensors"} <= whole["files"].keys()
     assert not (job.out_dir / SHARDS_DIR).exists()
     assert replace(job, keep_current=True).merge(2) == version
 
@@ -125,7 +125,7 @@ def test_what_is_missing_damaged_or_of_something_else_is_refused_by_name(
     with pytest.raises(IndexBroken, match=r"parts: 2-of-2 is damaged: manifest.json"):
         job.merge(2)
     (path / "manifest.json").write_text(text)
-    for name in ("part.safetensors", "levels.relation.npy"):
+    for name in ("part.safetensors", "levels.safetensors"):
         content = (path / name).read_bytes()
         (path / name).write_bytes(content[:-1] + bytes([content[-1] ^ 1]))
         with pytest.raises(IndexBroken, match=rf"parts: 2-of-2 is damaged: {name} was changed"):

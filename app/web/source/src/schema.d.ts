@@ -860,7 +860,7 @@ export interface components {
             grow?: number[] | null;
             /**
              * Refine
-             * @description how the position is found. posterior: a position distribution from all hints and the map; regressor: vector search, then a regressor; matching: vector search, then a network that matches hints with a cell's instances; none: vector search alone, which gives the centres of cells. Except for posterior, ranking uses all levels of the retriever only if the index was built with --levels
+             * @description how the position is found. posterior: a position distribution from all hints and the map; regressor: vector search, then a regressor; matching: vector search, then a network that matches hints with a cell's instances; none: vector search alone, which gives the centres of cells. Except for posterior, ranking uses all levels of the retriever, unless the index was built with --no-levels
              * @default posterior
              * @enum {string}
              */
@@ -1316,7 +1316,7 @@ export interface components {
             crs: "map" | "wgs84";
             /**
              * Refine
-             * @description how the position is found. posterior: a position distribution from all hints and the map; regressor: vector search, then a regressor; matching: vector search, then a network that matches hints with a cell's instances; none: vector search alone, which gives the centres of cells. Except for posterior, ranking uses all levels of the retriever only if the index was built with --levels
+             * @description how the position is found. posterior: a position distribution from all hints and the map; regressor: vector search, then a regressor; matching: vector search, then a network that matches hints with a cell's instances; none: vector search alone, which gives the centres of cells. Except for posterior, ranking uses all levels of the retriever, unless the index was built with --no-levels
              * @default posterior
              * @enum {string}
              */
