@@ -59,6 +59,7 @@ def predict(data: MapData, queries: Queries, localizer: CellLocalizer, progress:
     ranked, scores = np.full((total, listed), -1, np.int32), np.full((total, listed), -np.inf, np.float32)
     positions = np.zeros((total, min(STORED_POSITIONS, listed), 2))
     probability, radius_m = np.zeros(total), np.full((total, 2), data.cells.extent_m)
+    is_retrieved = np.zeros(total, np.bool_)
     for start in range(0, total, QUERIES_PER_BATCH):
         progress("ask", start, total)
         batch = [
@@ -73,6 +74,7 @@ def predict(data: MapData, queries: Queries, localizer: CellLocalizer, progress:
             near = located.positions[: positions.shape[1]]
             positions[q, : len(near)] = near
             probability[q], radius_m[q] = located.probability[0], located.radii_m(0.5, 0.9)
+            is_retrieved[q] = located.is_retrieved
     progress("ask", total, total)
     model = localizer.model
     return Predictions(
@@ -83,6 +85,7 @@ def predict(data: MapData, queries: Queries, localizer: CellLocalizer, progress:
             "model": model.name,
             "model_fingerprint": model.sha256,
             "method": localizer.method,
+            "retrieved_share": int(is_retrieved.sum()) / max(1, total),  # where vector search proposed the cells
         },
         cell_ids=np.array(data.cells.ids),
         cell_scenes=np.array(data.cells.scenes),

@@ -154,6 +154,9 @@ def test_the_evaluation_asks_it_and_measures_its_coverage(posterior, data_and_qu
     report = evaluate(data, subset, posterior, tmp_path, grow_m=[60, 120])
     assert report["retrieval"]["1"] > 0.4
     assert report["method"] == "posterior"
+    texts = ["\n".join(sentences) for sentences in subset.sentences]
+    retrieved = [posterior.find([Query(text)])[0].located.is_retrieved for text in texts]
+    assert report["retrieved_share"] == sum(retrieved) / len(texts)
     assert set(report["coverage"]) == {"p50", "p90"}
     assert 0 < report["coverage"]["p50"]["median_m"] <= report["coverage"]["p90"]["median_m"]
     assert [step["cells"] for step in report["growth"]] == sorted(step["cells"] for step in report["growth"])
