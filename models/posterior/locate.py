@@ -24,6 +24,7 @@ COARSENING: Final = 2
 MAX_GAP_NATS: Final = 9.0  # by the coarse grid; cells further behind are not evaluated at all nodes
 FAR_GAP_NATS: Final = 20.0  # by the inverted list; cells further behind get a grid twice as coarse, without mentions
 _SAMPLE_STRIDE: Final = 16  # the sample of scores that bounds the best ones
+LISTED_CELLS: Final = 30  # best cells of the list that join the proposed ones (docs/method.md#candidates)
 _TAIL_CELLS: Final = 30  # candidates that score most like the others, from which the mass of these is estimated
 
 
@@ -39,13 +40,13 @@ def locate(
         posterior: of the gallery.
         evidence: about the position.
         candidates: number of cells to evaluate if the inverted list proposes them, the best by approximate score.
-        proposed: [A] cells to evaluate instead, unless all score lower than the best of the list.
+        proposed: [A] cells to evaluate instead, with a few of the list's, unless its best cell is not among them.
     """
     scores = _cell_scores(posterior, evidence)
     is_retrieved = proposed is not None and len(proposed) > 0 and scores[proposed].max() == scores.max()
     chosen = best_rows(scores, min(candidates, len(scores)))
     if proposed is not None and is_retrieved:
-        chosen = _in_order(proposed[scores[proposed] > -np.inf], scores)
+        chosen = _in_order(np.union1d(proposed[scores[proposed] > -np.inf], chosen[:LISTED_CELLS]), scores)
     if not len(chosen):
         return None
     score = scores[chosen]

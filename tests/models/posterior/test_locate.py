@@ -104,14 +104,15 @@ def test_answers_bring_in_cells_that_were_not_listed() -> None:
     assert after.weight[after.points == 3] > 0.9
 
 
-def test_proposed_cells_replace_the_list_if_its_best_cell_is_among_them() -> None:
+def test_proposed_cells_replace_the_list_if_its_best_cell_is_among_them(monkeypatch) -> None:
+    monkeypatch.setattr("models.posterior.locate.LISTED_CELLS", 2)
     log_p = np.array([0.5, -0.5, 0.1, -2.0, 0.3, -7.0])
     posterior = posterior_of(np.array([[30.0 * n, 0] for n in range(6)]), log_p, list(range(7)))
-    good = locate(posterior, SOMETHING, candidates=2, proposed=np.array([3, 4, 0]))
+    good = locate(posterior, SOMETHING, candidates=3, proposed=np.array([3, 4, 0]))
     poor = locate(posterior, SOMETHING, candidates=2, proposed=np.array([3, 4, 1]))
     assert good is not None
     assert poor is not None
-    assert (good.is_retrieved, good.rows.tolist()) == (True, [0, 4, 3])
+    assert (good.is_retrieved, good.rows.tolist()) == (True, [0, 4, 1, 3])
     assert (poor.is_retrieved, poor.rows.tolist()) == (False, [0, 1])
     for located in (good, poor):
         usual = np.median([log_p[row] + row for row in located.rows])  # cell n scores -n
