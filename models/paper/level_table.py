@@ -35,9 +35,8 @@ class LevelTable:
     starts: Ints  # [N + 1] cell n has the rows starts[n] to starts[n + 1]; no cell is empty
     # [R, D] float32 by level, without the global one; or int8 codes [R, K] of the bases
     vectors: dict[Level, npt.NDArray[Any]]
-    bases: Bases = field(
-        default_factory=dict
-    )  # [D, K] by level: a vector is about basis @ code; none for exact vectors
+    # [D, K] by level: a vector is about basis @ code; none for exact vectors
+    bases: Bases = field(default_factory=dict)
 
     @property
     def is_empty(self) -> bool:

@@ -21,11 +21,8 @@ RELEASED_LEAST_WEIGHT = 0.8  # of the negative loss, in the released code
 class MnclConfig(RetrieverConfig):
     """Architecture and loss of MNCL, with an option for each row of tables 3 and 4 and for both curves of figure 4."""
 
-    levels: tuple[Level, ...] = (
-        "global",
-        "instance",
-        "relation",
-    )  # the levels to compare; "global" is always the first
+    # the levels to compare; "global" is always the first
+    levels: tuple[Level, ...] = ("global", "instance", "relation")
     # similarity of the instance and relation levels, see `set_similarity`: "hints" in the code, "both" in the paper
     matching: Matching = "hints"
     cell_layers: int = Field(default=2, ge=0)  # attention layers over the instances of a cell
@@ -34,9 +31,8 @@ class MnclConfig(RetrieverConfig):
     # "contrastive" is the vanilla loss (InfoNCE), "negative" the paper's
     loss: Literal["contrastive", "negative"] = "negative"
     loss_temperature: float = Field(default=0.05, gt=0)  # tau
-    exponent: float = Field(
-        default=2.0, ge=0
-    )  # a of the weights of the negative loss; 0 selects the vanilla loss (figure 4)
+    # a of the weights of the negative loss; 0 selects the vanilla loss (figure 4)
+    exponent: float = Field(default=2.0, ge=0)
     # divisor of the distance in these weights: the maximum of the "batch" (the released code) or of "unit" vectors, 2
     distance: Distance = "batch"
     # minimum of these weights; None for 0.8 with "batch" (the released code) and 0 with "unit" (the paper)
