@@ -633,7 +633,7 @@ export interface components {
          *         },
          *         "units": "m"
          *       },
-         *       "description": "I am on Kaivokatu, between Keskuskatu and Mikonkatu. Ateneum is 14 m to my north. A street lamp is 4 m to my west.",
+         *       "description": "I am on Kaivokatu, between Keskuskatu and Mikonkatu.",
          *       "hints": [
          *         {
          *           "at": [
@@ -646,29 +646,6 @@ export interface components {
          *           "name": "Kaivokatu",
          *           "source_id": "way/1234",
          *           "text": "I am on Kaivokatu, between Keskuskatu and Mikonkatu."
-         *         },
-         *         {
-         *           "at": [
-         *             105.5,
-         *             -21
-         *           ],
-         *           "away_m": 14,
-         *           "bearing_deg": 2,
-         *           "instance": "tourism/museum",
-         *           "name": "Ateneum",
-         *           "source_id": "way/5678",
-         *           "text": "Ateneum is 14 m to my north."
-         *         },
-         *         {
-         *           "at": [
-         *             101.5,
-         *             -35
-         *           ],
-         *           "away_m": 3.5,
-         *           "bearing_deg": 270,
-         *           "instance": "street lamp",
-         *           "source_id": "node/9012",
-         *           "text": "A street lamp is 4 m to my west."
          *         }
          *       ],
          *       "place": "on Kaivokatu, between Keskuskatu and Mikonkatu, 14 m south of Ateneum",
@@ -1432,27 +1409,6 @@ export interface components {
          *         {
          *           "absent": false,
          *           "at": [
-         *             105,
-         *             -41.2
-         *           ],
-         *           "away_m": 6.2,
-         *           "colour": "gray",
-         *           "distance_m": 6,
-         *           "explained": 0.97,
-         *           "instance": "building",
-         *           "label": "building",
-         *           "name": "Stockmann",
-         *           "relation": "north",
-         *           "source_id": "way/1234",
-         *           "span": [
-         *             16,
-         *             24
-         *           ],
-         *           "text": "building"
-         *         },
-         *         {
-         *           "absent": false,
-         *           "at": [
          *             105.5,
          *             -21
          *           ],
@@ -1466,8 +1422,8 @@ export interface components {
          *           "relation": "right",
          *           "source_id": "way/5678",
          *           "span": [
-         *             45,
-         *             52
+         *             12,
+         *             19
          *           ],
          *           "text": "Ateneum"
          *         }
