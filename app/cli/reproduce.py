@@ -60,7 +60,7 @@ def reproduce(
         raise DataError("--steps and --epochs both set the length of training; give one of them")
     numbers, experiments = _parse_seeds(seeds), choose_experiments(tables)
     scale = _override(SCALES["demo" if data == "demo" else "full"], config, steps, device)
-    max_workers = _check_runs(scale, (*required_runs(experiments, every_seed=False), TrainingRun(POINTS)), config)
+    max_workers = _check_runs(scale, (*required_runs(experiments), TrainingRun(POINTS)), config)
     with stage_bars() as show:
         store = _store(_towns(data, out, show) if data in SYNTHETIC_SCALES else Path(data), out, show)
         scale = scale_in_epochs(scale, store, epochs) if epochs else scale

@@ -7,8 +7,9 @@ from models.paper.instance_encoder import PAPER_INPUTS
 
 Changes = tuple[tuple[str, Any], ...]
 Metric = Literal["retrieval", "localization"]
-# Instance inputs by name, as changes of a configuration.
-VARIANTS: dict[str, Changes] = {"our inputs": (), "the paper's inputs": (("inputs", PAPER_INPUTS),)}
+# Instance inputs by name, as changes of a configuration. The paper trains a larger point encoder with the rest.
+OUR_INPUTS, PAPERS_INPUTS = "our inputs", "the paper's inputs, smaller and frozen"
+VARIANTS: dict[str, Changes] = {OUR_INPUTS: (), PAPERS_INPUTS: (("inputs", PAPER_INPUTS),)}
 POINTS = "points"  # the method name of the point encoder
 
 
@@ -17,7 +18,8 @@ class TrainingRun:
     """One training run."""
 
     method: str  # key of METHODS or FINE_METHODS, or POINTS
-    changes: Changes = ()  # configuration fields that differ from the defaults, sorted by name
+    # settings that differ from the defaults, sorted by name: fields of the model, or "training." and a field
+    changes: Changes = ()
 
     def with_changes(self, changes: Changes) -> "TrainingRun":
         """Return the run with further changes."""
@@ -33,7 +35,8 @@ class TrainingRun:
     def settings(self) -> tuple[str, ...]:
         """The changes in the form that `load_settings` takes."""
         return tuple(
-            f"model.{key}={','.join(value) if isinstance(value, tuple) else value}" for key, value in self.changes
+            f"{key if '.' in key else f'model.{key}'}={','.join(value) if isinstance(value, tuple) else value}"
+            for key, value in self.changes
         )
 
     @property
@@ -51,6 +54,7 @@ class TableRow:
     published: dict[str, str] = field(default_factory=dict)  # figures by column, on the test split
     validation: dict[str, str] = field(default_factory=dict)  # the same on the validation split
     fine: TrainingRun | None = None  # the fine stage, in localization tables
+    at_center: bool = False  # whether positions are the centres of the cells instead of those of the fine stage
     only: str | None = None  # the one variant to compute; None for all variants of the table
 
 
@@ -63,9 +67,10 @@ class Experiment:
     rows: tuple[TableRow, ...]  # of a curve: its points in order
     metric: Metric = "retrieval"
     variants: tuple[str, ...] = tuple(VARIANTS)  # the VARIANTS that are computed for each row
-    every_seed: bool = True  # whether to run every seed, as for the tables, or the first only
+    seeds: int | None = None  # how many of the seeds to run, the first ones; None for all of them
     note: str = ""
     best: str | None = None  # name of the row that is best in the paper, for curves without published figures
+    long: bool = False  # whether it takes hours, so that it is run only when asked for by its key
 
     def row_variants(self) -> list[tuple[TableRow, str]]:
         """Return each row with each of its variants."""
@@ -117,20 +122,24 @@ def apply_variant(run: TrainingRun, variant: str) -> TrainingRun:
     return run if "inputs" in dict(run.changes) else run.with_changes(VARIANTS[variant])
 
 
-def fine_pairs(experiments: tuple[Experiment, ...]) -> tuple[tuple[TrainingRun, TrainingRun], ...]:
-    """Return the distinct pairs (retriever, fine stage) of the localization rows."""
+def _selected(experiments: tuple[Experiment, ...], nth_seed: int) -> list[Experiment]:
+    return [experiment for experiment in experiments if experiment.seeds is None or nth_seed < experiment.seeds]
+
+
+def fine_pairs(experiments: tuple[Experiment, ...], nth_seed: int = 0) -> tuple[tuple[TrainingRun, TrainingRun], ...]:
+    """Return the distinct pairs (retriever, fine stage) of the localization rows, as `required_runs`."""
     pairs = [
         (apply_variant(row.run, variant), apply_variant(row.fine, variant))
-        for experiment in experiments
+        for experiment in _selected(experiments, nth_seed)
         for row, variant in experiment.row_variants()
         if row.fine is not None
     ]
     return tuple(dict.fromkeys(pairs))
 
 
-def required_runs(experiments: tuple[Experiment, ...], every_seed: bool) -> tuple[TrainingRun, ...]:
-    """Return the distinct training runs of experiments; with `every_seed`, of those that run every seed."""
-    selected = [experiment for experiment in experiments if experiment.every_seed or not every_seed]
+def required_runs(experiments: tuple[Experiment, ...], nth_seed: int = 0) -> tuple[TrainingRun, ...]:
+    """Return the distinct training runs of experiments for the n-th of the seeds, counted from 0."""
+    selected = _selected(experiments, nth_seed)
     runs = [apply_variant(row.run, variant) for experiment in selected for row, variant in experiment.row_variants()]
-    fine = [stage for _, stage in fine_pairs(tuple(selected))]
+    fine = [stage for _, stage in fine_pairs(experiments, nth_seed)]
     return tuple(dict.fromkeys([*runs, *fine]))

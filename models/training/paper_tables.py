@@ -1,13 +1,20 @@
 """The tables and figures of MNCL (AAAI 2025): the training run and the published figures of each row.
 
 Published figures are for the test split of KITTI360Pose (or its validation split, if marked), with the same protocol
-(docs/formats.md). Our runs use other data and, for "our inputs", other inputs, so only the order of the rows compares.
+(docs/formats.md). Our runs use other data and, for OUR_INPUTS, other inputs, so only the order of the rows compares.
 """
 
 from typing import Any
 
 from models.paper.instance_encoder import DEFAULT_INPUTS, Input
-from models.training.experiments import Experiment, TableRow, TrainingRun, apply_variant
+from models.training.experiments import (
+    OUR_INPUTS,
+    PAPERS_INPUTS,
+    Experiment,
+    TableRow,
+    TrainingRun,
+    apply_variant,
+)
 
 
 def _mncl(**changes: Any) -> TrainingRun:
@@ -30,6 +37,8 @@ LEVELS = {name: _mncl(levels=("global", *name.split())) for name in ("", "instan
 MATCHING = TrainingRun("matching").with_changes((("plain", False),))
 REFINED = MATCHING.with_changes((("refine", True),))
 HEAD = TrainingRun("regressor").with_changes((("plain", False), ("point", False), ("max_instances", 16)))
+LONG_VALIDATIONS = 15  # of a training of given length
+UNIT_LOSS = "negative contrastive, half the distance, no least weight (the paper)"
 OUR_HEAD, OUR_MATCHING = TrainingRun("regressor"), TrainingRun("matching").with_changes((("refine", True),))
 
 
@@ -54,8 +63,9 @@ TABLE_1 = Experiment(
         _localized("RET", RET, REFINED, (".16/.25/.29", ".35/.51/.56", ".46/.65/.71"), ".19/.30/.37"),
         _localized("Text2Loc", TEXT2LOC, HEAD, (".33/.48/.52", ".61/.75/.78", ".71/.84/.86"), ".37/.57/.63"),
         _localized("MNCL", MNCL, HEAD, (".50/.66/.68", ".76/.87/.89", ".83/.93/.94"), ".54/.75/.79"),
-        TableRow("MNCL, our head", MNCL, fine=OUR_HEAD, only="our inputs"),
-        TableRow("MNCL, our matching", MNCL, fine=OUR_MATCHING, only="our inputs"),
+        TableRow("MNCL, centre of the retrieved cell", MNCL, fine=HEAD, at_center=True),
+        TableRow("MNCL, our head", MNCL, fine=OUR_HEAD, only=OUR_INPUTS),
+        TableRow("MNCL, our matching", MNCL, fine=OUR_MATCHING, only=OUR_INPUTS),
     ),
     "localization",
     note="Fine stages are the papers': matching (Text2Pos), matching and refinement (RET), the matching-free head "
@@ -88,7 +98,7 @@ TABLE_4 = Experiment(
     (
         TableRow("vanilla contrastive", VANILLA, {"R@1": ".41"}),
         TableRow("negative contrastive, weights of at least 0.8 (the code; our default)", MNCL),
-        TableRow("negative contrastive, half the distance, no least weight (the paper)", PAPERS_LOSS, {"R@1": ".44"}),
+        TableRow(UNIT_LOSS, PAPERS_LOSS, {"R@1": ".44"}),
     ),
     note="Batches are drawn without near neighbours, as the papers draw theirs; `hereabouts train` draws with them, "
     "which helps the vanilla loss more.",
@@ -100,8 +110,8 @@ FIGURE_4A = Experiment(
         TableRow("0 layers (the paper's: global level only)", LEVELS[""]),
         *(TableRow(f"{m} layers", MNCL if m == 3 else _mncl(graph_layers=m)) for m in range(1, 6)),
     ),
-    variants=("our inputs",),
-    every_seed=False,
+    variants=(OUR_INPUTS,),
+    seeds=1,
     note="The sum of R@1/3/5 is 163 % without layers and about 180 % with three in the paper, where three are best.",
     best="3 layers",
 )
@@ -112,8 +122,8 @@ FIGURE_4B = Experiment(
         TableRow("a = 0", VANILLA),
         *(TableRow(f"a = {a}", PAPERS_LOSS if a == 2 else _exponent(a)) for a in (1, 2, 3, 4)),
     ),
-    variants=("our inputs",),
-    every_seed=False,
+    variants=(OUR_INPUTS,),
+    seeds=1,
     note="a = 0 is the vanilla loss. In the paper a = 2 is best.",
     best="a = 2",
 )
@@ -139,8 +149,8 @@ ATTENTION = Experiment(
             "W learned, softmax over channels (the paper)", _mncl(attention_axis="channels", attention_query="mixed")
         ),
     ),
-    variants=("our inputs",),
-    every_seed=False,
+    variants=(OUR_INPUTS,),
+    seeds=1,
 )
 CODE = Experiment(
     "code",
@@ -152,8 +162,8 @@ CODE = Experiment(
         TableRow("half the distance, two logarithms", PAPERS_LOSS),
         TableRow("half the distance, one logarithm (the paper)", _mncl(distance="unit", logarithms="one")),
     ),
-    variants=("our inputs",),
-    every_seed=False,
+    variants=(OUR_INPUTS,),
+    seeds=1,
 )
 INPUTS = Experiment(
     "inputs",
@@ -162,13 +172,63 @@ INPUTS = Experiment(
         TableRow("label, colour, centre, closest point, size, number of points (our inputs)", MNCL),
         *(_without(name) for name in DEFAULT_INPUTS),
         TableRow("our inputs and points", _mncl(inputs=(*DEFAULT_INPUTS, "points"))),
-        TableRow("points, colour, centre, number of points (the paper's)", apply_variant(MNCL, "the paper's inputs")),
+        TableRow("points, colour, centre, number of points (the paper's)", apply_variant(MNCL, PAPERS_INPUTS)),
     ),
-    variants=("our inputs",),
-    every_seed=False,
+    variants=(OUR_INPUTS,),
+    seeds=1,
 )
-EXPERIMENTS = {
-    e.key: e for e in (TABLE_1, TABLE_2, TABLE_3, TABLE_4, FIGURE_4A, FIGURE_4B, GRAPH, ATTENTION, CODE, INPUTS)
-}
+
+
+def _lasting(run: TrainingRun, steps: int) -> TrainingRun:
+    return run.with_changes((("training.steps", steps), ("training.validate_every", steps // LONG_VALIDATIONS)))
+
+
+def _with_wrong_hints(percent: int) -> Experiment:
+    """Return the experiment with the losses of table 4, trained with wrong hints; the paper claims robustness to it."""
+    noise = (("training.wrong_hints", percent / 100),)
+    return Experiment(
+        f"noise{percent}",
+        f"Loss with {percent} % of the training hints wrong",
+        tuple(TableRow(row.name, row.run.with_changes(noise)) for row in TABLE_4.rows),
+        variants=(OUR_INPUTS,),
+        note="Table 4 has the same without wrong hints.",
+        best=UNIT_LOSS,
+        long=True,
+    )
+
+
+NOISE = tuple(_with_wrong_hints(percent) for percent in (20, 40))
+LONG_RET = Experiment(
+    "ret",
+    "RET and Text2Pos, 1,500 steps",
+    (
+        TableRow("Text2Pos", _lasting(TEXT2POS, 1500), validation={"R@1": ".14"}),
+        TableRow("Text2Pos, each hint alone", _lasting(TEXT2POS_BY_HINT, 1500)),
+        TableRow("RET", _lasting(RET, 1500), validation={"R@1": ".18"}),
+    ),
+    variants=(OUR_INPUTS,),
+    long=True,
+)
+LONG_LOSS = Experiment(
+    "loss",
+    "Loss, 4,000 steps",
+    tuple(TableRow(row.name, _lasting(row.run, 4000), row.published) for row in TABLE_4.rows),
+    variants=(PAPERS_INPUTS,),
+    seeds=2,
+    long=True,
+)
+LONG_HEAD = Experiment(
+    "head",
+    "The papers' head, 4,000 steps: localization recall within 5/10/15 m",
+    (
+        TableRow("MNCL", MNCL, fine=_lasting(HEAD, 4000)),
+        TableRow("MNCL, centre of the retrieved cell", MNCL, fine=_lasting(HEAD, 4000), at_center=True),
+    ),
+    "localization",
+    seeds=1,
+    long=True,
+)
+SHORT = (TABLE_1, TABLE_2, TABLE_3, TABLE_4, FIGURE_4A, FIGURE_4B, GRAPH, ATTENTION, CODE, INPUTS)
+EXPERIMENTS = {e.key: e for e in (*SHORT, LONG_RET, LONG_LOSS, LONG_HEAD, *NOISE)}
 # Figure 5: change of recall@1 as the gallery grows from 200 m to 300, 400 and 500 m.
 GROWTH = {"Text2Loc": (TEXT2LOC, "-14.3/-16.8/-19.2 %"), "MNCL": (MNCL, "-4.9/-6.8/-9.6 %")}

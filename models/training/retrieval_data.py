@@ -109,14 +109,22 @@ class TrainingSet:
     """Training positions with all possible hints of each.
 
     "varied" wording draws the hints, their number and their wording, and sometimes omits colours; "published" uses the
-    hints of the data set (in a map, the nearest six) in the wording of the benchmark.
+    hints of the data set (in a map, the nearest six) in the wording of the benchmark. `wrong_share` of the hints are
+    replaced by those of other positions in the batch.
 
     Raises:
         DataError: no position has enough hints.
     """
 
-    def __init__(self, statements: PositionStatements, encoder: TextEncoder, wording: WordingMode = "varied") -> None:
-        self.statements, self.table, self.best, self.wording = statements, statements.table, statements.best, wording
+    def __init__(
+        self,
+        statements: PositionStatements,
+        encoder: TextEncoder,
+        wording: WordingMode = "varied",
+        wrong_share: float = 0.0,
+    ) -> None:
+        self.statements, self.table, self.best = statements, statements.table, statements.best
+        self.wording, self.wrong_share = wording, wrong_share
         self.features = CellFeatures.from_cells(statements.gallery.cells, np.array(statements.gallery.labels))
         self.usable = np.flatnonzero(np.diff(self.table.starts) >= MIN_HINTS)
         if not len(self.usable):
@@ -166,6 +174,8 @@ class TrainingSet:
         for row, position in enumerate(positions):
             rows = self._draw_rows(int(position), rng) if varied else self._published_rows(int(position))
             hints[row, : len(rows)], mask[row, : len(rows)] = rows, True
+        if self.wrong_share:
+            hints = replace_hints(hints, mask, self.wrong_share, rng)
         colour, template = self.table.colour[hints], np.zeros_like(hints)
         if varied:
             colour = np.where(rng.random(hints.shape) < COLOUR_SHARE, colour, -1)
@@ -184,6 +194,19 @@ class TrainingSet:
     def _published_rows(self, position: int) -> npt.NDArray[Any]:
         start, end = self.table.starts[position], self.table.starts[position + 1]
         return np.arange(start, min(end, start + NUM_HINTS))
+
+
+def replace_hints(
+    hints: npt.NDArray[np.int64], mask: npt.NDArray[np.bool_], share: float, rng: np.random.Generator
+) -> npt.NDArray[np.int64]:
+    """Return hints [B, H] of which each real one (mask [B, H]) is, with a probability, one of another row instead."""
+    row, _ = np.nonzero(mask)
+    real = hints[mask]
+    drawn = rng.integers(len(real), size=len(real))
+    wrong = (rng.random(len(real)) < share) & (row[drawn] != row)
+    replaced = hints.copy()
+    replaced[mask] = np.where(wrong, real[drawn], real)
+    return replaced
 
 
 def reflect_cells(batch: CellBatch, matrix: Tensor) -> CellBatch:

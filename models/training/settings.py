@@ -40,6 +40,8 @@ class TrainingConfig(LoopConfig):
     spacing_m: float = Field(default=4.0, gt=0)  # of the training positions in an OpenStreetMap file
     # "varied" draws the number of hints and their wording; "published" is that of the benchmark.
     wording: WordingMode = "varied"
+    # Share of the training hints replaced by hints of other positions of the batch: noise in the descriptions.
+    wrong_hints: float = Field(default=0.0, ge=0, le=1)
     pmc: CloningMode = "containing"  # prototype-based map cloning, see `FineSet`
     # Directory of a point encoder (`hereabouts train --method points`) for point inputs; None trains one.
     points: Path | None = None

@@ -48,7 +48,9 @@ class TrainingData:
         rng: np.random.Generator,
     ) -> "TrainingData":
         """Return the data of a training and a validation source; `rng` draws positions in a map."""
-        training_set = TrainingSet(training.statements(config.spacing_m, rng), encoder, config.wording)
+        training_set = TrainingSet(
+            training.statements(config.spacing_m, rng), encoder, config.wording, config.wrong_hints
+        )
         gallery, queries = validation.data.gallery, validation.queries(VALIDATION_SEED)
         return cls(training_set, gallery, queries, _facts(training, validation))
 

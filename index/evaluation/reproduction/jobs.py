@@ -38,10 +38,11 @@ from models.training.paper_tables import GROWTH, MNCL
 from models.training.settings import load_settings
 from models.training.training_data import load_training_cells, load_training_data
 
-_RESULT_FORMAT = 1  # of results; increase it when a training or a measurement changes
+_RESULT_FORMAT = 2  # of results; increase it when a training, a measurement or the default of a setting changes
 RESULT_FILE, WEIGHTS_DIR, RUN_DIR, FIGURE_3 = "result.json", "weights", "run", "figure3.png"
 POINTS_SEED = 0
 MEASURED_SPLITS = TEST, VALIDATION = "test", "val"
+AT_CENTER = "cell_center"  # key of the localization at the centres of the cells
 _TRAINING_SPLITS = "train", VALIDATION
 GLOBAL_ONLY, RERANKED, ALL_LEVELS = (
     "global level alone",
@@ -68,7 +69,10 @@ class ReproductionJob:
     def build(cls, run: TrainingRun, seed: int, data: Path, out: Path, scale: TrainingScale) -> "ReproductionJob":
         """Build a job in `out`."""
         model, training = run_settings(run, seed, scale)
-        settings = [model.model_dump(mode="json"), training.model_dump(mode="json", exclude={"device"})]
+        settings = [  # not the defaults, so that a further option does not make every run again
+            model.model_dump(mode="json", exclude_defaults=True),
+            training.model_dump(mode="json", exclude_defaults=True, exclude={"device"}),
+        ]
         facts = [_RESULT_FORMAT, run.method, *settings, pick_device(training.device).type]
         facts += _encoder_files(getattr(model, "text_encoder", DEFAULT_TEXT_ENCODER))
         if run.needs_points:
@@ -231,13 +235,17 @@ def _rankings(retriever: Retriever, data: Path) -> dict[str, dict[str, float]]:
 
 
 def localize(job: ReproductionJob, fine_job: ReproductionJob, draw: bool) -> None:
-    """Measure localization with a fine stage on test and validation scenes, and save it with the retriever's result."""
+    """Measure localization with a fine stage and at the centres of the cells, and save it with the retriever's result.
+
+    Both on test and validation scenes.
+    """
     torch.set_num_threads(1)
     retriever, refiner = load_retriever(job.directory / WEIGHTS_DIR), load_fine(fine_job.directory / WEIGHTS_DIR)
-    result = {}
+    result: dict[str, Any] = {AT_CENTER: {}}
     for split, (data, queries) in zip(MEASURED_SPLITS, open_queries(job.data, *MEASURED_SPLITS), strict=True):
         localizer = _localizer(data, retriever, refiner=refiner)
-        result[split] = evaluate(data, queries, localizer)["localization"]
+        report = evaluate(data, queries, localizer)
+        result[split], result[AT_CENTER][split] = report["localization"], report[AT_CENTER]
         if draw and split == TEST:
             draw_figure_3(data, queries, localizer, job.directory / FIGURE_3)
     record = {"key": job.key + fine_job.key, "localization": result}

@@ -9,6 +9,7 @@ import numpy as np
 
 from index.evaluation.report import Table, as_markdown
 from index.evaluation.reproduction.figures import draw_figure_4, draw_figure_5
+from index.evaluation.reproduction.jobs import AT_CENTER
 from models.training.experiments import VARIANTS, Experiment, TableRow, apply_variant
 from models.training.metrics import LOCALIZATION_KS, RETRIEVAL_KS
 from models.training.paper_tables import EXPERIMENTS, GROWTH, MNCL
@@ -140,7 +141,9 @@ def _recalls(row: TableRow, variant: str, results: Results) -> tuple[Numbers, Nu
         splits = "retrieval", "validation_retrieval"
         test, validation = ([list(result[split].values()) for result in by_seed] for split in splits)
     else:
-        localizations = [result["localization"][apply_variant(row.fine, variant).name] for result in by_seed]
+        stage = apply_variant(row.fine, variant).name
+        localizations = [result["localization"][stage] for result in by_seed if stage in result["localization"]]
+        localizations = [by[AT_CENTER] for by in localizations] if row.at_center else localizations
         test, validation = (
             [[list(by.values()) for by in by_split[split].values()] for by_split in localizations]
             for split in ("test", "val")
@@ -149,8 +152,7 @@ def _recalls(row: TableRow, variant: str, results: Results) -> tuple[Numbers, Nu
 
 
 def _columns(recalls: Numbers, experiment: Experiment) -> list[str]:
-    if not experiment.every_seed:
-        recalls = recalls[:1]
+    recalls = recalls[: experiment.seeds]
     if experiment.metric == "retrieval":
         return [_spread(column) for column in recalls.T]
     return ["/".join(_spread(recalls[:, k, metres]) for metres in range(3)) for k in range(recalls.shape[1])]

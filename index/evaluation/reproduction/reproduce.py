@@ -43,8 +43,9 @@ def scale_in_epochs(scale: TrainingScale, data: Path, epochs: int) -> TrainingSc
 
 
 def choose_experiments(keys: str | None) -> tuple[Experiment, ...]:
-    """Return experiments by their keys, such as "1,2,4a"; all of them for None. DataError if a key is unknown."""
-    wanted = list(EXPERIMENTS) if keys is None else [key.strip() for key in keys.split(",")]
+    """Return experiments by their keys, such as "1,2,4a", or all but the long ones; DataError if a key is unknown."""
+    short = [key for key, experiment in EXPERIMENTS.items() if not experiment.long]
+    wanted = short if keys is None else [key.strip() for key in keys.split(",")]
     if unknown := [key for key in wanted if key not in EXPERIMENTS]:
         raise DataError(f"--tables {unknown[0]}: unknown; choose from {', '.join(EXPERIMENTS)}")
     return tuple(EXPERIMENTS[key] for key in dict.fromkeys(wanted))
@@ -57,7 +58,7 @@ def reproduce(
     seeds: Sequence[int],
     workers: int,
     progress: Progress,
-    experiments: tuple[Experiment, ...] = tuple(EXPERIMENTS.values()),
+    experiments: tuple[Experiment, ...],
 ) -> dict[str, Any]:
     """Train and measure what is missing, and collect the results.
 
@@ -66,8 +67,8 @@ def reproduce(
     """
     jobs = [
         ReproductionJob.build(run, seed, data, out, scale)
-        for seed in seeds
-        for run in required_runs(experiments, every_seed=seed != seeds[0])
+        for n, seed in enumerate(seeds)
+        for run in required_runs(experiments, n)
     ]
     backbones = list(dict.fromkeys(job.points for job in jobs if job.points))
     _train("train and measure", [*backbones, *(job for job in jobs if not job.points)], workers, progress)
@@ -79,8 +80,8 @@ def reproduce(
         results_by_run.setdefault(job.run.name, []).append(result)
     pairs = [
         (ReproductionJob.build(run, seed, data, out, scale), ReproductionJob.build(fine, seed, data, out, scale))
-        for run, fine in fine_pairs(experiments)
-        for seed in seeds
+        for n, seed in enumerate(seeds)
+        for run, fine in fine_pairs(experiments, n)
     ]
     _localize(pairs, seeds[0], workers, progress)
     for job, fine_job in pairs:
@@ -112,7 +113,7 @@ def figure_3_path(
     out: Path,
     scale: TrainingScale,
     seed: int,
-    experiments: tuple[Experiment, ...] = tuple(EXPERIMENTS.values()),
+    experiments: tuple[Experiment, ...],
 ) -> Path | None:
     """Return the picture of MNCL's retrieved cells; None if it was not made with these experiments and scale."""
     job, fine_job = (ReproductionJob.build(run, seed, data, out, scale) for run in (MNCL, HEAD))
