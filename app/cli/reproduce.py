@@ -28,7 +28,11 @@ def reproduce(
         str, typer.Option(help="seeds of the trainings, such as 0 or 0,1,2; figure 4 uses the first")
     ] = "0",
     tables: Annotated[
-        str | None, typer.Option(help="tables: 1, 2, 3, 4, 4a, 4b, graph, attention, code, inputs; default: all")
+        str | None,
+        typer.Option(
+            help="tables: 1, 2, 3, 4, 4a, 4b, graph, attention, code, inputs; or ret, loss, head, noise20, noise40, "
+            "which are long and not in the default"
+        ),
     ] = None,
     steps: Annotated[int | None, typer.Option(min=1, help="optimization steps of each training")] = None,
     epochs: Annotated[

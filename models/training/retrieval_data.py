@@ -199,13 +199,11 @@ class TrainingSet:
 def replace_hints(
     hints: npt.NDArray[np.int64], mask: npt.NDArray[np.bool_], share: float, rng: np.random.Generator
 ) -> npt.NDArray[np.int64]:
-    """Return hints [B, H] of which each real one (mask [B, H]) is, with a probability, one of another row instead."""
-    row, _ = np.nonzero(mask)
-    real = hints[mask]
-    drawn = rng.integers(len(real), size=len(real))
-    wrong = (rng.random(len(real)) < share) & (row[drawn] != row)
+    """Return hints [B, H] in which some real ones (mask [B, H], True first) are those of another row, by chance."""
+    row, column = np.nonzero(mask & (rng.random(mask.shape) < share))
+    other = (row + rng.integers(1, len(mask), size=len(row))) % len(mask)
     replaced = hints.copy()
-    replaced[mask] = np.where(wrong, real[drawn], real)
+    replaced[row, column] = hints[other, rng.integers(mask.sum(axis=1)[other])]
     return replaced
 
 

@@ -75,6 +75,27 @@ def test_published_wording_says_what_is_there_in_the_benchmarks_words(source, te
         assert drawn.hints[row, drawn.mask[row]].tolist() == hints.tolist()
 
 
+def test_wrong_hints_are_hints_of_other_positions(source, text_encoder) -> None:
+    statements = source.statements(10.0, np.random.default_rng(0))
+    right, wrong = (TrainingSet(statements, text_encoder, "published", share) for share in (0.0, 0.4))
+    chosen = right.usable
+    true, noisy = (
+        region.draw_hints(chosen, np.zeros(len(chosen), int), np.random.default_rng(0)) for region in (right, wrong)
+    )
+    assert (true.mask == noisy.mask).all()
+    assert (noisy.hints[~noisy.mask] == -1).all()
+    replaced = (true.hints != noisy.hints) & true.mask
+    assert replaced[true.mask].mean() == pytest.approx(0.4, abs=0.06)
+    table = right.table
+    for row, column in np.argwhere(replaced):
+        owner = np.searchsorted(table.starts, noisy.hints[row, column], "right") - 1
+        assert owner in chosen
+        assert owner != chosen[row]
+        label = right.label_of[table.instance[noisy.hints[row, column]]]
+        colour, direction = table.colour[noisy.hints[row, column]], table.direction[noisy.hints[row, column]]
+        assert noisy.sentences[row, column] == wrong.vocabulary.sentence(label, colour, direction, 0)
+
+
 def test_the_vocabulary_numbers_its_sentences(region) -> None:
     vocabulary = region.vocabulary
     numbers = [

@@ -8,6 +8,7 @@ import pytest
 import torch
 
 from index.evaluation.reproduction import reproduce as module
+from index.evaluation.reproduction.jobs import run_settings
 from index.evaluation.reproduction.report import markdown, order_verdict, write_reproduction
 from index.evaluation.reproduction.reproduce import choose_experiments, scale_in_epochs
 from models.errors import DataError
@@ -32,6 +33,7 @@ ALL = tuple(EXPERIMENTS.values())
 _FEW = ("training.steps=2", "training.validate_every=2", "training.batch_size=4", "training.spacing_m=30")
 _RETRIEVER = (*_FEW, "training.validate_every=1", "model.width=32")
 SCALE = TrainingScale(_RETRIEVER, (*_FEW, "model.width=32"), (60.0, 120.0), _FEW)
+NOISES = ["noise20", "noise40"]
 ONE = (Experiment("one", "One row", (TableRow("Text2Loc", TEXT2LOC, fine=REGRESSOR),), "localization"),)
 
 
@@ -73,7 +75,7 @@ def test_what_is_done_is_kept_and_what_differs_is_made_again(small, strip_file, 
     assert 0 <= result["retrieval"]["1"] <= result["retrieval"]["5"] <= 1
     assert result["training"]["seconds"] >= result["training"]["seconds_to_best"] > 0
     assert len(result["growth"]) == 2
-    assert set(result["localization"]["regressor"]) == {"test", "val"}
+    assert set(result["localization"]["regressor"]) == {"test", "val", "cell_center"}
     first = stamps(tmp_path)
     assert made(SCALE) == reproduction
     assert stamps(tmp_path) == first
@@ -87,15 +89,16 @@ def test_what_is_done_is_kept_and_what_differs_is_made_again(small, strip_file, 
 
 
 def test_further_seeds_make_the_tables_alone() -> None:
-    every, first = required_runs(ALL, every_seed=True), required_runs(ALL, every_seed=False)
+    every, first = required_runs(ALL, 2), required_runs(ALL)
     assert set(every) < set(first)
-    figures = {apply_variant(row.run, v) for e in ALL if not e.every_seed for row, v in e.row_variants()}
+    few = [(row, variant) for e in ALL if e.seeds for row, variant in e.row_variants()]
+    figures = {apply_variant(run, variant) for row, variant in few for run in (row.run, row.fine) if run}
     assert set(first) - set(every) == figures - set(every)
     assert HEAD in every
 
 
 def test_variants_differ_in_their_inputs_alone() -> None:
-    runs = required_runs((TABLE_2,), every_seed=True)
+    runs = required_runs((TABLE_2,), 1)
     points = "-inputs=points+colour+position+count"
     assert {run.name for run in runs} == {
         f"{method}{inputs}{text}"
@@ -128,9 +131,18 @@ def test_epochs_are_as_many_steps_as_the_data_has_batches(osm_file) -> None:
     assert scale.fine[-4:] == scale.retriever[-4:]
 
 
+def test_a_run_may_set_its_own_training() -> None:
+    """Changes of a run go before those of the scale."""
+    run = TrainingRun("ret").with_changes((("training.steps", 1500), ("dropout", 0.2)))
+    assert run.name == "ret-dropout=0.2-training.steps=1500"
+    model, training = run_settings(run, 3, SCALE)
+    assert (model.dropout, training.steps, training.seed, training.batch_size) == (0.2, 1500, 3, 4)
+
+
 def test_tables_are_chosen_by_name() -> None:
     assert choose_experiments("2, 4b, 2") == (EXPERIMENTS["2"], EXPERIMENTS["4b"])
-    assert choose_experiments(None) == ALL
+    assert choose_experiments(None) == tuple(experiment for experiment in ALL if not experiment.long)
+    assert [key for key, experiment in EXPERIMENTS.items() if experiment.long] == ["ret", "loss", "head", *NOISES]
     with pytest.raises(DataError, match=r"--tables 9: .* 4a"):
         choose_experiments("9")
 
@@ -157,15 +169,17 @@ def made_up(run: TrainingRun, seed: int) -> dict[str, object]:
         return result | {"validation": fine | {"cell_center": fine}}
     if run.method == POINTS:
         return result | {"validation": {"label": 0.8}}
-    stages = {fine.name: {"test": within, "val": within} for _, fine in fine_pairs(ALL)}
+    by_split = {"test": within, "val": within}
+    center = {split: {k: {"5": 0.15, "10": 0.25, "15": 0.35} for k in within} for split in by_split}
+    stages = {fine.name: by_split | {"cell_center": center} for _, fine in fine_pairs(ALL)}
     measured = {"retrieval": recall, "validation_retrieval": recall, "parameters": 10, "bytes_a_cell": 512}
     return result | measured | {"growth": grown, "localization": stages, "rankings": {"global level alone": recall}}
 
 
 def found_of(*seeds: int) -> dict[str, Any]:
-    runs = {run.name: [made_up(run, seeds[0])] for run in (*required_runs(ALL, every_seed=False), TrainingRun(POINTS))}
-    for seed in seeds[1:]:
-        for run in (*required_runs(ALL, every_seed=True), TrainingRun(POINTS)):
+    runs = {run.name: [made_up(run, seeds[0])] for run in (*required_runs(ALL), TrainingRun(POINTS))}
+    for n, seed in enumerate(seeds[1:], start=1):
+        for run in (*required_runs(ALL, n), TrainingRun(POINTS)):
             runs[run.name].append(made_up(run, seed))
     data = {"cells": 100, "queries": 2000, "exact_matching": {"1": 0.4}}
     return {"seeds": list(seeds), "data": data, "experiments": list(EXPERIMENTS), "runs": runs}
@@ -179,10 +193,14 @@ def test_the_report_has_every_table_and_says_where_the_orders_hold(tmp_path) -> 
     for experiment in EXPERIMENTS.values():
         assert f"## {experiment.title}" in text
     assert "| MNCL, our inputs | 0.550 ± 0.071 |" in text
-    assert "| MNCL, the paper's inputs | 0.200 ± 0.000 |" in text
+    assert "| MNCL, centre of the retrieved cell, our inputs | 0.150 ± 0.000/0.250" in text
+    assert "| MNCL, the paper's inputs, smaller and frozen | 0.200 ± 0.000 |" in text
     assert "| 3 layers | 0.500 |" in text, "figure 4 is of the first seed"
     assert "| Table 2 | MNCL above Text2Loc | our inputs | yes | 2 of 2 | 0.350 ± 0.071 |" in text
-    assert "| Table 2 | Text2Loc above RET | the paper's inputs | undecided | 0 of 2 | 0.000 ± 0.000 |" in text
+    assert (
+        "| Table 2 | Text2Loc above RET | the paper's inputs, smaller and frozen | undecided | 0 of 2 | 0.000 ± 0.000 |"
+        in text
+    )
     assert "| Figure 4 | 3 layers above 5 layers | our inputs | yes | 1 of 1 | 0.300 |" in text
     assert "-50.0 %" in text
     hours = sum(len(results) for results in found_of(0, 1)["runs"].values()) * 90 / 3600
