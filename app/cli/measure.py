@@ -12,7 +12,7 @@ from rich.table import Table
 
 import models
 from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Seed, Split
-from index.answering.query import Refine
+from index.answering.query import Refine, Rerank
 from models.errors import DataError
 from models.sources.place_texts import SUFFIXES as PLACE_TEXT_SUFFIXES
 
@@ -41,6 +41,13 @@ def evaluate(
     refine: Annotated[
         Refine | None, typer.Option(help="how positions are found; default: posterior, or the value in a .json file")
     ] = None,
+    rerank: Annotated[
+        Rerank | None,
+        typer.Option(
+            help="rank the first 20 cells again by matching hints with their objects; with --refine none, regressor "
+            "or matching"
+        ),
+    ] = None,
     hard: Annotated[
         bool,
         typer.Option("--robustness", help="test fewer, wrong and misspelt hints, free wording and an outdated map"),
@@ -58,10 +65,12 @@ def evaluate(
     if (data is None) == (rescore is None):
         raise DataError("give either --data, the queries, or --rescore, the directory of an earlier report")
     if data is None or rescore is not None:
+        _check_rerank(rerank, "--rescore")
         _print_report(rescore_report(Path(str(rescore))))
         return
     radii = _radii(grow)
     if data.name.endswith(PLACE_TEXT_SUFFIXES):
+        _check_rerank(rerank, f"a {data.suffix} file")
         _evaluate_place_texts(data, index_dir, report)
         return
     settings = load_settings(index_dir=index_dir)
@@ -72,12 +81,24 @@ def evaluate(
         evaluation = Evaluation(**weights, data=data, split=split, grow_m=radii, refine="posterior")
     if refine:
         evaluation = evaluation.model_copy(update={"refine": refine})
+    if hard or evaluation.refine == "posterior":
+        _check_rerank(rerank, "--robustness" if hard else "--refine posterior, the default")
+    evaluation = evaluation.model_copy(update={"rerank": rerank})
     with stage_bars() as show:
         results = evaluation.run_robustness(report, show) if hard else evaluation.run(report, show)
     if hard:
         _print_robustness(results)
     else:
         _print_report(results)
+
+
+def _check_rerank(rerank: Rerank | None, other: str) -> None:
+    """Raise DataError if there is `rerank` beside something that it does not work with."""
+    if rerank is not None:
+        raise DataError(
+            f"--rerank {rerank} changes the order of vector search and does not work with {other}; "
+            "use it with --refine none, regressor or matching"
+        )
 
 
 def _evaluate_place_texts(data: Path, index_dir: Path, report: Path | None) -> None:

@@ -12,7 +12,7 @@ from app.http.bodies import check_json
 from app.http.errors import Problem, field_message, field_name
 from app.http.schemas.requests import EvaluateQuery, EvaluateRequest
 from app.settings import Settings
-from index.answering.query import DEFAULT_REFINE, Refine
+from index.answering.query import DEFAULT_REFINE, Refine, Rerank
 from index.build.artifact import open_version
 from models.citymap.frame import Frame
 from models.citymap.types import Progress
@@ -39,6 +39,7 @@ class Evaluation(BaseModel):
     weights_dir: Path | None
     grow_m: list[float] = []
     refine: Refine = DEFAULT_REFINE
+    rerank: Rerank | None = None
     fine_weights_dir: Path | None = None
     posterior_weights_dir: Path | None = None
     data: Path | None = None
@@ -66,7 +67,7 @@ class Evaluation(BaseModel):
         queries = Queries.from_text(sentences, np.array(self.positions_m), data.cells)
         evaluated: CellLocalizer = localizer.posterior
         if self.refine != "posterior":
-            evaluated = with_raw_texts(localizer.vector_localizer(self.refine))
+            evaluated = with_raw_texts(localizer.vector_localizer(self.refine), data, self.rerank)
         return evaluate(data, queries, evaluated, report_dir, self.grow_m, progress)
 
     def _open(self, progress: Progress) -> "tuple[Source, Queries]":
@@ -98,7 +99,7 @@ class Evaluation(BaseModel):
         if self.refine == "matching" or self.refine == "regressor":  # noqa: PLR1714  # mypy cannot narrow `in`
             refiner = load_refiner(self.refine, self.fine_weights_dir)
         ranker = self._ranker(source, load_retriever(self.weights_dir), progress)
-        return vectors_of_map(source.data, ranker, refiner)
+        return vectors_of_map(source.data, ranker, refiner, self.rerank)
 
     @staticmethod
     def _ranker(source: "Source", retriever: "Retriever", progress: Progress) -> "Ranker":

@@ -5,6 +5,7 @@ from typing import Final, Literal
 
 Crs = Literal["map", "wgs84"]
 Refine = Literal["none", "matching", "regressor", "posterior"]
+Rerank = Literal["parc"]  # how the first cells are ranked again
 DEFAULT_REFINE: Final[Refine] = "posterior"
 DEFAULT_TOP_K: Final = 5
 MAX_REPLIES: Final = 8  # per query; after that no further question is asked

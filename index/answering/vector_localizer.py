@@ -8,6 +8,7 @@ from scipy.special import logsumexp
 
 from index.answering.answers import Method, ModelName
 from index.answering.filters import is_inside, log_prior
+from index.answering.partial_transport import TransportReranker
 from index.answering.query import Query
 from index.answering.ranking import Ranker
 from index.answering.result import LocalizerResult, elapsed_ms
@@ -44,11 +45,13 @@ class VectorLocalizer:
         refiner: FineModel | None = None,  # finds positions inside the listed cells; None keeps the centres
         sentences: SplitTexts = raw_sentences,  # turns descriptions into the sentences that the models encode
         depth: int = RANKED_CELLS,  # number of cells in the softmax
+        reranker: TransportReranker | None = None,  # changes the order of the first cells; None keeps the ranker's
     ) -> None:
         self.ranker, self.gallery, self.frame, self.refiner = ranker, gallery, frame, refiner
-        self.grid_m, self.sentences, self.depth = grid_m, sentences, depth
+        self.grid_m, self.sentences, self.depth, self.reranker = grid_m, sentences, depth, reranker
         model = refiner or ranker.retriever
-        self.model = ModelName(model.name, model.fingerprint)  # computed once, because it reads all weights
+        name = f"{model.name}, re-ranked by partial transport" if reranker else model.name
+        self.model = ModelName(name, model.fingerprint)  # computed once, because it reads all weights
         self._centers, self._extent_m = gallery.cells.center_m[:, :2].astype(np.float64), gallery.cells.extent_m
         self._features: CellFeatures | UncutCells | None = None
         if refiner:
@@ -74,6 +77,8 @@ class VectorLocalizer:
         search_ms = elapsed_ms(start)
         start = time.perf_counter()
         ordered = [self._order(*each) for each in zip(queries, texts, ranked, strict=True)]
+        if reranker := self.reranker:
+            ordered = [reranker.rerank(*each) for each in zip(sentences, ordered, strict=True)]
         positions = self._positions(queries, sentences, [rows for rows, *_ in ordered])
         distributions = [self._distribution(*each) for each in zip(ordered, positions, strict=True)]
         timings = {"encode": encode_ms, "search": search_ms, "estimate": elapsed_ms(start)}

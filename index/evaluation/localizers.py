@@ -3,7 +3,9 @@
 import numpy as np
 
 from index.answering.localizer import Localizer
+from index.answering.partial_transport import TransportReranker
 from index.answering.posterior_localizer import PosteriorLocalizer
+from index.answering.query import Rerank
 from index.answering.ranking import Ranker
 from index.answering.result import CellLocalizer
 from index.answering.vector_localizer import VectorLocalizer
@@ -32,16 +34,22 @@ def map_of_index(localizer: Localizer) -> MapData:
     )
 
 
-def vectors_of_map(data: MapData, ranker: Ranker, refiner: FineModel | None = None) -> VectorLocalizer:
+def vectors_of_map(
+    data: MapData, ranker: Ranker, refiner: FineModel | None = None, rerank: Rerank | None = None
+) -> VectorLocalizer:
     """Return the vector search of a map, which encodes texts as they are and gives every cell a probability."""
-    return VectorLocalizer(ranker, data.gallery, data.frame, data.grid_m, refiner, depth=len(data.cells))
+    arguments = ranker, data.gallery, data.frame, data.grid_m, refiner
+    return VectorLocalizer(*arguments, depth=len(data.cells), reranker=_reranker(data, rerank))
 
 
-def with_raw_texts(served: VectorLocalizer) -> VectorLocalizer:
-    """Return the vector search of an index, which encodes texts as they are, as the paper does."""
-    return VectorLocalizer(
-        served.ranker, served.gallery, served.frame, served.grid_m, served.refiner, depth=served.depth
-    )
+def with_raw_texts(served: VectorLocalizer, data: MapData, rerank: Rerank | None = None) -> VectorLocalizer:
+    """Return the vector search of an index with the map `data`, which encodes texts as they are, as the paper does."""
+    arguments = served.ranker, served.gallery, served.frame, served.grid_m, served.refiner
+    return VectorLocalizer(*arguments, depth=served.depth, reranker=_reranker(data, rerank))
+
+
+def _reranker(data: MapData, rerank: Rerank | None) -> TransportReranker | None:
+    return TransportReranker(data.gallery, data.palette) if rerank == "parc" else None
 
 
 def posterior_of_map(
@@ -61,7 +69,8 @@ def restrict_localizer(localizer: CellLocalizer, data: MapData, rows: Ints) -> C
     assert isinstance(localizer, VectorLocalizer | PosteriorLocalizer)
     ranker = restrict_ranker(localizer.ranker, rows)
     if isinstance(localizer, VectorLocalizer):
-        how = localizer.refiner, localizer.sentences, localizer.depth
+        reranker = localizer.reranker and TransportReranker(data.gallery, data.palette)
+        how = localizer.refiner, localizer.sentences, localizer.depth, reranker
         return VectorLocalizer(ranker, data.gallery, data.frame, data.grid_m, *how)
     around, places = localizer.surroundings, localizer.places
     around = around.take(rows, count_parts(around.objects, localizer.gallery.cells, rows))

@@ -1,6 +1,9 @@
 """The benchmark's hint sentences and other wordings of the same hints (docs/formats.md, rule 8)."""
 
-from typing import Final
+import re
+from collections.abc import Sequence
+from functools import cache
+from typing import Final, cast
 
 from models.citymap.types import Direction, Hint
 
@@ -49,3 +52,26 @@ def render_hint(hint: Hint, template: int = 0) -> str:
     if hint.direction == "on-top":
         return ON_TOP_TEMPLATES[template].format(**words)
     return TEMPLATES[template].format(**words, d=hint.direction, o=OPPOSITE[hint.direction])
+
+
+def parse_hint(sentence: str, colours: Sequence[str]) -> Hint | None:
+    """Return the hint that `render_hint` writes as this sentence, in any wording; None for any other sentence.
+
+    `colours` are the words that are colours where they stand before the label.
+    """
+    for template, pattern in _patterns():
+        if match := pattern.fullmatch(sentence):
+            noun, direction = match["noun"], cast(Direction, match.groupdict().get("direction", "on-top"))
+            colour = next((word for word in colours if noun.startswith(f"{word} ")), None)
+            label = noun[len(colour) + 1 :] if colour else noun
+            return Hint(OPPOSITE[direction] if "{o}" in template else direction, label, colour)
+    return None
+
+
+@cache
+def _patterns() -> tuple[tuple[str, re.Pattern[str]], ...]:
+    """Return each template with a pattern of its sentences."""
+    winds, noun = "(?P<direction>north|south|east|west)", "(?P<noun>.+)"
+    slots = {"d": winds, "o": winds} | dict.fromkeys(("a", "A", "the", "The"), f"(?:An?|an?|The|the) {noun}")
+    templates = *TEMPLATES, *ON_TOP_TEMPLATES
+    return tuple((text, re.compile(text.replace(".", r"\.").format(**slots))) for text in templates)

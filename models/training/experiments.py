@@ -55,6 +55,7 @@ class TableRow:
     validation: dict[str, str] = field(default_factory=dict)  # the same on the validation split
     fine: TrainingRun | None = None  # the fine stage, in localization tables
     at_center: bool = False  # whether positions are the centres of the cells instead of those of the fine stage
+    rerank: bool = False  # whether the first cells are ranked again by partial transport
     only: str | None = None  # the one variant to compute; None for all variants of the table
 
 
@@ -133,6 +134,19 @@ def fine_pairs(experiments: tuple[Experiment, ...], nth_seed: int = 0) -> tuple[
         for experiment in _selected(experiments, nth_seed)
         for row, variant in experiment.row_variants()
         if row.fine is not None
+    ]
+    return tuple(dict.fromkeys(pairs))
+
+
+def reranked_pairs(
+    experiments: tuple[Experiment, ...], nth_seed: int = 0
+) -> tuple[tuple[TrainingRun, TrainingRun | None], ...]:
+    """Return the distinct pairs (retriever, fine stage or None) of the re-ranked rows, as `required_runs`."""
+    pairs = [
+        (apply_variant(row.run, variant), row.fine and apply_variant(row.fine, variant))
+        for experiment in _selected(experiments, nth_seed)
+        for row, variant in experiment.row_variants()
+        if row.rerank
     ]
     return tuple(dict.fromkeys(pairs))
 

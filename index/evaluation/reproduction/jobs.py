@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import torch
 
+from index.answering.query import Rerank
 from index.answering.ranking import RERANKED_CELLS, Ranker
 from index.answering.vector_localizer import VectorLocalizer
 from index.build.manifest import fingerprint
@@ -42,6 +43,7 @@ _RESULT_FORMAT = 2  # of results; increase it when a training, a measurement or 
 RESULT_FILE, WEIGHTS_DIR, RUN_DIR, FIGURE_3 = "result.json", "weights", "run", "figure3.png"
 POINTS_SEED = 0
 MEASURED_SPLITS = TEST, VALIDATION = "test", "val"
+_RERANK_FORMAT = 1  # of re-ranked results; increase it when the re-ranking changes
 AT_CENTER = "cell_center"  # key of the localization at the centres of the cells
 _TRAINING_SPLITS = "train", VALIDATION
 GLOBAL_ONLY, RERANKED, ALL_LEVELS = (
@@ -262,11 +264,45 @@ def _localization_file(job: ReproductionJob, fine_job: ReproductionJob) -> Path:
     return job.directory / f"localization-{fine_job.run.name}.json"
 
 
+def measure_reranked(job: ReproductionJob, fine_job: ReproductionJob | None) -> None:
+    """Measure retrieval, and localization with a fine stage or at the centres, of re-ranked cells, and save it.
+
+    Both on test and validation scenes.
+    """
+    torch.set_num_threads(1)
+    retriever = load_retriever(job.directory / WEIGHTS_DIR)
+    refiner = load_fine(fine_job.directory / WEIGHTS_DIR) if fine_job else None
+    result: dict[str, Any] = {}
+    for split, (data, queries) in zip(MEASURED_SPLITS, open_queries(job.data, *MEASURED_SPLITS), strict=True):
+        report = evaluate(data, queries, _localizer(data, retriever, refiner=refiner, rerank="parc"))
+        result[split] = {name: report[name] for name in ("retrieval", "localization", "calibration")}
+    record = {"key": _reranked_key(job, fine_job), "reranked": result}
+    replace_file(_reranked_file(job, fine_job), json.dumps(record).encode())
+
+
+def read_reranked(job: ReproductionJob, fine_job: ReproductionJob | None) -> dict[str, Any] | None:
+    """Return the saved results of `measure_reranked` by split; None if they are not measured yet."""
+    result = _read_result(_reranked_file(job, fine_job), _reranked_key(job, fine_job))
+    return result and result["reranked"]
+
+
+def _reranked_key(job: ReproductionJob, fine_job: ReproductionJob | None) -> str:
+    return f"{_RERANK_FORMAT}-{job.key}{fine_job.key if fine_job else ''}"
+
+
+def _reranked_file(job: ReproductionJob, fine_job: ReproductionJob | None) -> Path:
+    return job.directory / f"reranked-{fine_job.run.name if fine_job else 'centers'}.json"
+
+
 def _localizer(
-    data: MapData, retriever: Retriever, depth: int = RERANKED_CELLS, refiner: FineModel | None = None
+    data: MapData,
+    retriever: Retriever,
+    depth: int = RERANKED_CELLS,
+    refiner: FineModel | None = None,
+    rerank: Rerank | None = None,
 ) -> VectorLocalizer:
     ranker = Ranker.from_cells(retriever, data.cells, data.gallery.labels, depth)
-    return vectors_of_map(data, ranker, refiner)
+    return vectors_of_map(data, ranker, refiner, rerank)
 
 
 def open_queries(data: Path, *splits: str) -> Iterator[tuple[MapData, Queries]]:

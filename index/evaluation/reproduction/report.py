@@ -9,7 +9,7 @@ import numpy as np
 
 from index.evaluation.report import Table, as_markdown
 from index.evaluation.reproduction.figures import draw_figure_4, draw_figure_5
-from index.evaluation.reproduction.jobs import AT_CENTER
+from index.evaluation.reproduction.jobs import AT_CENTER, MEASURED_SPLITS, TEST, VALIDATION
 from models.training.experiments import VARIANTS, Experiment, TableRow, apply_variant
 from models.training.metrics import LOCALIZATION_KS, RETRIEVAL_KS
 from models.training.paper_tables import EXPERIMENTS, GROWTH, MNCL
@@ -137,17 +137,20 @@ def _table(experiment: Experiment, results: Results) -> Table:
 def _recalls(row: TableRow, variant: str, results: Results) -> tuple[Numbers, Numbers]:
     """Return recalls [seeds, metrics] on test and validation scenes; for localization [seeds, k, metres]."""
     by_seed = results["runs"][apply_variant(row.run, variant).name]
-    if row.fine is None:
-        splits = "retrieval", "validation_retrieval"
-        test, validation = ([list(result[split].values()) for result in by_seed] for split in splits)
+    stage = apply_variant(row.fine, variant).name if row.fine else ""
+    if row.rerank:
+        metric = "localization" if row.fine else "retrieval"
+        reranked = [result["reranked"][stage] for result in by_seed if stage in result.get("reranked", {})]
+        by_seed = [{split: by_split[split][metric] for split in MEASURED_SPLITS} for by_split in reranked]
+    elif row.fine:
+        by_seed = [result["localization"][stage] for result in by_seed if stage in result["localization"]]
+        by_seed = [by[AT_CENTER] for by in by_seed] if row.at_center else by_seed
     else:
-        stage = apply_variant(row.fine, variant).name
-        localizations = [result["localization"][stage] for result in by_seed if stage in result["localization"]]
-        localizations = [by[AT_CENTER] for by in localizations] if row.at_center else localizations
-        test, validation = (
-            [[list(by.values()) for by in by_split[split].values()] for by_split in localizations]
-            for split in ("test", "val")
-        )
+        by_seed = [{TEST: result["retrieval"], VALIDATION: result["validation_retrieval"]} for result in by_seed]
+    test, validation = (
+        [[list(by.values()) if row.fine else by for by in result[split].values()] for result in by_seed]
+        for split in MEASURED_SPLITS
+    )
     return np.array(test), np.array(validation)
 
 

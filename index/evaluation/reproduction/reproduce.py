@@ -15,13 +15,15 @@ from index.evaluation.reproduction.jobs import (
     TEST,
     ReproductionJob,
     localize,
+    measure_reranked,
     read_localization,
+    read_reranked,
     train_and_measure,
 )
 from models.citymap.types import Progress
 from models.errors import DataError
 from models.sources.source import open_source
-from models.training.experiments import Experiment, TrainingScale, fine_pairs, required_runs
+from models.training.experiments import Experiment, TrainingScale, fine_pairs, required_runs, reranked_pairs
 from models.training.paper_tables import EXPERIMENTS, HEAD, MNCL
 from models.training.settings import load_settings
 
@@ -87,6 +89,18 @@ def reproduce(
     for job, fine_job in pairs:
         by_fine = results_by_run[job.run.name][list(seeds).index(job.seed)].setdefault("localization", {})
         by_fine[fine_job.run.name] = read_localization(job, fine_job)
+    reranked = [
+        (
+            ReproductionJob.build(run, seed, data, out, scale),
+            fine and ReproductionJob.build(fine, seed, data, out, scale),
+        )
+        for n, seed in enumerate(seeds)
+        for run, fine in reranked_pairs(experiments, n)
+    ]
+    _measure_reranked(reranked, workers, progress)
+    for job, stage in reranked:
+        by_stage = results_by_run[job.run.name][list(seeds).index(job.seed)].setdefault("reranked", {})
+        by_stage[stage.run.name if stage else ""] = read_reranked(job, stage)
     keys = [experiment.key for experiment in experiments]
     return {"seeds": list(seeds), "data": _test_scene_facts(data), "experiments": keys, "runs": results_by_run}
 
@@ -106,6 +120,14 @@ def _localize(
     ]
     for done in _run_in_processes(localize, missing, workers):
         progress("localize", done, len(missing))
+
+
+def _measure_reranked(
+    pairs: Sequence[tuple[ReproductionJob, ReproductionJob | None]], workers: int, progress: Progress
+) -> None:
+    missing = [pair for pair in pairs if read_reranked(*pair) is None]
+    for done in _run_in_processes(measure_reranked, missing, workers):
+        progress("re-rank", done, len(missing))
 
 
 def figure_3_path(
