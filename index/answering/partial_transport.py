@@ -4,8 +4,8 @@ A transport plan gives each hint to parts of the cell, or leaves it unmatched. I
 differ, and if two parts do not lie relative to each other as the directions of their hints say: seen from the person,
 a thing that the person is north of lies south of one that the person is south of.
 
-PARC-Loc publishes `DEPTH` and the costs of labels, colours and layout. `UNMATCHED_COST` and `NATS_PER_COST`, and that
-parts without a hint cost nothing, are from validation scenes of synthetic towns.
+PARC-Loc publishes `DEPTH` and the costs of labels, colours and layout. The other constants, and that parts without a
+hint cost nothing, were chosen on validation scenes of synthetic towns.
 """
 
 from collections.abc import Sequence
@@ -26,7 +26,8 @@ DEPTH: Final = 20  # first cells that are ranked again
 LABEL_COST, COLOUR_COST, LAYOUT_COST = 1.0, 0.5, 0.8
 UNMATCHED_COST: Final = 0.6  # of a hint; less than another label, which is therefore never matched
 # The retriever's log-probability less this times the cost orders the cells; the cost alone is worse, and ties often.
-NATS_PER_COST: Final = 64.0
+NATS_PER_COST: Final = 48.0
+TEMPERATURE: Final = 2.5  # that divides the result, so that probabilities are calibrated; it changes no order
 MAX_ITERATIONS: Final = 12  # of Frank and Wolfe's algorithm; most plans are final after three
 MIN_DECREASE: Final = 1e-9  # of a cost, to go on
 # Unit vectors [5, 2] from the person to the thing, for a hint with each of DIRECTIONS.
@@ -53,7 +54,7 @@ class TransportReranker:
         if not hints or not mass:
             return ranked
         with np.errstate(divide="ignore"):
-            logits = np.log(probability[:DEPTH]) - NATS_PER_COST * self.costs(hints, first)
+            logits = (np.log(probability[:DEPTH]) - NATS_PER_COST * self.costs(hints, first)) / TEMPERATURE
         weight = np.exp(logits - logits.max())
         order = np.argsort(-logits, kind="stable")
         everything = np.append(order, np.arange(len(order), len(rows)))

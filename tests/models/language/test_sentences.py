@@ -2,7 +2,7 @@ import re
 
 import pytest
 
-from models.citymap.templates import ON_TOP_TEMPLATES, TEMPLATES, render_hint
+from models.citymap.templates import ON_TOP_TEMPLATES, TEMPLATES, parse_hint, render_hint
 from models.citymap.types import DIRECTIONS, Hint
 from models.errors import DescriptionError
 from models.language.sentences import locate_spans, split_for_reader, split_hints
@@ -56,6 +56,22 @@ def test_every_template_renders() -> None:
     texts = {render_hint(Hint(d, "wall", "red"), t) for d in DIRECTIONS for t in range(len(TEMPLATES))}
     assert len(texts) == len(DIRECTIONS) * len(TEMPLATES)
     assert all("red wall" in t and "{" not in t for t in texts)
+
+
+@pytest.mark.parametrize("template", range(len(TEMPLATES)))
+def test_every_template_is_parsed(template) -> None:
+    for direction in DIRECTIONS:
+        for colour in (None, "gray", "gray-green"):
+            hint = Hint(direction, "street lamp", colour)
+            assert parse_hint(render_hint(hint, template), ("gray", "gray-green")) == hint
+    assert parse_hint(render_hint(Hint("west", "awning", "red"), template), ()) == Hint("west", "red awning")
+
+
+@pytest.mark.parametrize(
+    "text", ["", "a wall", "The pose is near a wall.", "I am north of a wall, it is red", "I stand"]
+)
+def test_other_sentences_are_no_template(text) -> None:
+    assert parse_hint(text, ("red",)) is None
 
 
 @pytest.mark.parametrize(
