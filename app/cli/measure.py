@@ -70,7 +70,7 @@ def evaluate(
         return
     radii = _radii(grow)
     if data.name.endswith(PLACE_TEXT_SUFFIXES):
-        _check_rerank(rerank, f"a {data.suffix} file")
+        _check_rerank(rerank, "a file of texts")
         _evaluate_place_texts(data, index_dir, report)
         return
     settings = load_settings(index_dir=index_dir)

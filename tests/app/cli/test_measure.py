@@ -1,6 +1,7 @@
 """evaluate, localize --picture and benchmark, on the tiny town."""
 
 import json
+import re
 
 import pytest
 from typer.testing import CliRunner
@@ -31,6 +32,34 @@ def test_evaluate_refuses_an_unknown_split_in_one_line(run, osm_file) -> None:
     result = run("evaluate", "--data", osm_file, "--split", "north")
     assert result.exit_code == 1
     assert "is not a split of a map" in result.output
+
+
+@pytest.mark.slow
+def test_evaluate_ranks_again(run, strip_file) -> None:
+    args = "evaluate", "--data", strip_file, "--split", "val", "--refine", "none"
+    plain, again = run(*args), run(*args, "--rerank", "parc")
+    assert again.exit_code == 0, again.output
+    # The model is untrained, so there is much to gain.
+    recalls = [float(re.search(r"model\s+\S\s+([\d.]+)", result.output)[1]) for result in (plain, again)]
+    assert recalls[1] > recalls[0]
+
+
+@pytest.mark.parametrize(
+    ("args", "other"),
+    [
+        (("--data", "town.osm"), "--refine posterior, the default"),
+        (("--data", "town.osm", "--refine", "posterior"), "--refine posterior"),
+        (("--data", "town.osm", "--refine", "none", "--robustness"), "--robustness"),
+        (("--data", "texts.jsonl"), "a file of texts"),
+        (("--rescore", "report"), "--rescore"),
+    ],
+)
+def test_only_vector_search_is_ranked_again(run, args, other) -> None:
+    result = run("evaluate", *args, "--rerank", "parc")
+    assert result.exit_code == 1
+    message = " ".join(result.output.split())
+    assert f"does not work with {other}" in message
+    assert "--refine none, regressor or matching" in message
 
 
 def test_questions_prints_what_they_help(run, osm_file, index_dir) -> None:

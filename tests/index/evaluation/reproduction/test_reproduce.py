@@ -24,6 +24,7 @@ from models.training.experiments import (
     apply_variant,
     fine_pairs,
     required_runs,
+    reranked_pairs,
 )
 from models.training.paper_tables import EXPERIMENTS, GROWTH, HEAD, MNCL, TABLE_1, TABLE_2, TEXT2LOC
 from models.training.settings import load_settings
@@ -34,7 +35,8 @@ _FEW = ("training.steps=2", "training.validate_every=2", "training.batch_size=4"
 _RETRIEVER = (*_FEW, "training.validate_every=1", "model.width=32")
 SCALE = TrainingScale(_RETRIEVER, (*_FEW, "model.width=32"), (60.0, 120.0), _FEW)
 NOISES = ["noise20", "noise40"]
-ONE = (Experiment("one", "One row", (TableRow("Text2Loc", TEXT2LOC, fine=REGRESSOR),), "localization"),)
+ROWS = tuple(TableRow("Text2Loc", TEXT2LOC, fine=fine, rerank=fine != REGRESSOR) for fine in (REGRESSOR, None))
+ONE = (Experiment("one", "One method", (*ROWS, replace(ROWS[0], rerank=True))),)
 
 
 def here(work, tasks, workers):
@@ -76,6 +78,12 @@ def test_what_is_done_is_kept_and_what_differs_is_made_again(small, strip_file, 
     assert result["training"]["seconds"] >= result["training"]["seconds_to_best"] > 0
     assert len(result["growth"]) == 2
     assert set(result["localization"]["regressor"]) == {"test", "val", "cell_center"}
+    assert set(result["reranked"]) == {"", "regressor"}
+    for by_split in result["reranked"].values():
+        assert set(by_split) == {"test", "val"}
+    reranked, centers = (result["reranked"][stage]["test"] for stage in ("regressor", ""))
+    assert reranked["retrieval"] == centers["retrieval"] != result["retrieval"]
+    assert reranked["localization"] != centers["localization"]
     first = stamps(tmp_path)
     assert made(SCALE) == reproduction
     assert stamps(tmp_path) == first
@@ -172,8 +180,17 @@ def made_up(run: TrainingRun, seed: int) -> dict[str, object]:
     by_split = {"test": within, "val": within}
     center = {split: {k: {"5": 0.15, "10": 0.25, "15": 0.35} for k in within} for split in by_split}
     stages = {fine.name: by_split | {"cell_center": center} for _, fine in fine_pairs(ALL)}
+    again = {
+        "retrieval": recall | {"1": 0.61},
+        "localization": within | {"1": {"5": 0.71, "10": 0.72, "15": 0.73}},
+    }
+    reranked = {fine.name if fine else "": {"test": again, "val": again} for _, fine in reranked_pairs(ALL)}
     measured = {"retrieval": recall, "validation_retrieval": recall, "parameters": 10, "bytes_a_cell": 512}
-    return result | measured | {"growth": grown, "localization": stages, "rankings": {"global level alone": recall}}
+    return (
+        result
+        | measured
+        | {"growth": grown, "localization": stages, "reranked": reranked, "rankings": {"global level alone": recall}}
+    )
 
 
 def found_of(*seeds: int) -> dict[str, Any]:
@@ -195,6 +212,8 @@ def test_the_report_has_every_table_and_says_where_the_orders_hold(tmp_path) -> 
     assert "| MNCL, our inputs | 0.550 ± 0.071 |" in text
     assert "| MNCL, centre of the retrieved cell, our inputs | 0.150 ± 0.000/0.250" in text
     assert "| MNCL, the paper's inputs, smaller and frozen | 0.200 ± 0.000 |" in text
+    assert "| MNCL, re-ranked by PARC-Loc's matching, our inputs | 0.710 ± 0.000/0.720" in text
+    assert "| MNCL, re-ranked by PARC-Loc's matching, our inputs | 0.610 ± 0.000 | 0.700" in text
     assert "| 3 layers | 0.500 |" in text, "figure 4 is of the first seed"
     assert "| Table 2 | MNCL above Text2Loc | our inputs | yes | 2 of 2 | 0.350 ± 0.071 |" in text
     assert (
