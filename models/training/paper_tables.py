@@ -85,7 +85,7 @@ TABLE_2 = Experiment(
         _retrieved("MNCL", MNCL, ".44/.67/.75", ".50/.75/.84"),
         TableRow("MNCL, re-ranked by PARC-Loc's matching", MNCL, rerank=True),
     ),
-    note="PARC-Loc's matching compares labels and colour words, also of the rows with the paper's inputs. Published for "
+    note="PARC-Loc's matching compares labels and colour words, also with the paper's inputs. Published for "
     "PARC-Loc, with a retriever of its own: test .51/.76/.83, validation .54/.81/.89.",
 )
 TABLE_3 = Experiment(
