@@ -40,10 +40,22 @@ def negative_contrastive_loss(
     """
     logits = _mask_same_cell(scores / temperature, same_cell)
     if logarithms == "one":
-        terms = (1 - logits.softmax(dim=1) - logits.softmax(dim=0)).clamp(min=MIN_COMPLEMENT).log()
+        terms = _complement(logits).clamp(min=MIN_COMPLEMENT).log()
     else:
         terms = log_complement(logits, dim=1) + log_complement(logits, dim=0)
     return -(weights.masked_fill(same_cell, 0.0) * terms).sum() / len(scores)  # without the diagonal too
+
+
+def clamped_share(scores: Tensor, same_cell: Tensor, temperature: float) -> Tensor:
+    """Return the share of the negatives whose 1 - p - q one logarithm clamps, a scalar; arguments as of the losses."""
+    with torch.no_grad():
+        clamped = _complement(_mask_same_cell(scores / temperature, same_cell)) < MIN_COMPLEMENT
+        return (clamped & ~same_cell).sum() / (~same_cell).sum().clamp(min=1)
+
+
+def _complement(logits: Tensor) -> Tensor:
+    """Return 1 - p - q, for the softmax p over a row and q over a column."""
+    return 1 - logits.softmax(dim=1) - logits.softmax(dim=0)
 
 
 def log_complement(logits: Tensor, dim: int) -> Tensor:

@@ -11,7 +11,14 @@ from models.language.text_encoder import TextEncoder, TokenFeatures
 from models.paper.instance_encoder import CellBatch, InstanceEncoder
 from models.paper.layers import HintEncoder, SetTransformer, group_by_size, masked_max, mlp
 from models.paper.levels import Level, Levels, Matching, level_scores
-from models.paper.losses import Distance, Logarithms, contrastive_loss, negative_contrastive_loss, negative_weights
+from models.paper.losses import (
+    Distance,
+    Logarithms,
+    clamped_share,
+    contrastive_loss,
+    negative_contrastive_loss,
+    negative_weights,
+)
 from models.paper.retriever import Retriever, RetrieverConfig
 from models.paper.scene_graph import Aggregate, AttentionAxis, AttentionQuery, CellEdges, HintEdges, SceneGraph
 
@@ -67,6 +74,7 @@ class Mncl(Retriever):
     def __init__(self, text_encoder: TextEncoder, config: MnclConfig) -> None:
         super().__init__(text_encoder, config)
         width, dropout = config.width, config.dropout
+        self._clamped_shares: list[Tensor] = []  # of each level and step since `pop_loss_figures`
         self.hints = HintEncoder(text_encoder.width, width, dropout)
         self.description = SetTransformer(width, config.hint_layers, num_heads=4, dropout=dropout)
         self.instances = InstanceEncoder(text_encoder.width, width, config.inputs)
@@ -148,7 +156,14 @@ class Mncl(Retriever):
                 means = text.mean_vectors(level), cells.mean_vectors(level)
                 weights = negative_weights(*means, config.exponent, least, config.distance)
                 terms.append(negative_contrastive_loss(scores, weights, same_cell, tau, config.logarithms))
+                if config.logarithms == "one":
+                    self._clamped_shares.append(clamped_share(scores, same_cell, tau))
         return torch.stack(terms).sum()
+
+    def pop_loss_figures(self) -> dict[str, float]:
+        """Return the share of pairs that one logarithm clamped, the mean over levels and steps since the last call."""
+        shares, self._clamped_shares = self._clamped_shares, []
+        return {"clamped_pairs": float(torch.stack(shares).mean())} if shares else {}
 
 
 def _unit(vectors: Tensor, mask: Tensor) -> Tensor:

@@ -68,6 +68,10 @@ class Retriever(TextEncoderModel):
         """Whether descriptions are read as one text, so that the order of their hints matters."""
         return False
 
+    def pop_loss_figures(self) -> dict[str, float]:
+        """Return figures of the loss since the last call, to report with a validation."""
+        return {}
+
     def global_only(self) -> "Retriever":
         """Return the model reduced to the global level, which is faster; it shares the weights."""
         return self

@@ -62,9 +62,9 @@ class RetrievalTask:
             return self.model.loss(_in_float32(text), _in_float32(cells), examples.same_cell.to(device))
 
     def validate(self) -> dict[str, float]:
-        """Return recall@1, 3 and 5, the mean over the sources."""
+        """Return recall@1, 3 and 5, the mean over the sources, and figures of the loss since the last validation."""
         recalls = [validation.recall(self.model) for validation in self.validations]
-        return {f"recall@{k}": recall for k, recall in mean_recall(recalls).items()}
+        return {f"recall@{k}": recall for k, recall in mean_recall(recalls).items()} | self.model.pop_loss_figures()
 
 
 def _in_float32(levels: Levels) -> Levels:

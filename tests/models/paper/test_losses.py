@@ -5,7 +5,13 @@ import math
 import pytest
 import torch
 
-from models.paper.losses import contrastive_loss, log_complement, negative_contrastive_loss, negative_weights
+from models.paper.losses import (
+    clamped_share,
+    contrastive_loss,
+    log_complement,
+    negative_contrastive_loss,
+    negative_weights,
+)
 
 TAU = 0.3
 
@@ -63,15 +69,17 @@ def test_one_logarithm_is_of_both_probabilities_and_clamped_where_they_exceed_1(
     texts, cells, same = batch
     scores = texts @ cells.T
     scores[0, 5] = 2.0  # certain, and wrong: p + q is above 1
-    rows, total, clamped = scores.tolist(), 0.0, 0
+    rows, total, clamped, pairs = scores.tolist(), 0.0, 0, 0
     weights = negative_weights(texts, cells, 2.0, 0.0, "unit")
     for i in range(6):
         for j in (j for j in range(6) if not same[i, j]):
             p = softmax_of(rows[i], j, [k for k in range(6) if k == i or not same[i, k]])
             q = softmax_of([row[j] for row in rows], i, [k for k in range(6) if k == j or not same[k, j]])
-            clamped += p + q > 1
+            clamped, pairs = clamped + (p + q > 1), pairs + 1
             total -= weights[i, j].item() * math.log(max(1 - p - q, 1e-6))
     assert clamped == 1
+    assert clamped_share(scores, same, TAU).item() == pytest.approx(clamped / pairs)
+    assert clamped_share(scores, torch.ones(6, 6, dtype=torch.bool), TAU) == 0
     scores.requires_grad_()
     loss = negative_contrastive_loss(scores, weights, same, TAU, "one")
     assert loss.item() == pytest.approx(total / 6)

@@ -26,6 +26,7 @@ from models.training.fit_retriever import RetrievalTask, train_retriever
 from models.training.retrieval_data import DIRECTION_UNDER_SYMMETRY, SYMMETRIES, TrainingSet, reflect_cells
 from models.training.settings import TrainingConfig, load_settings
 from models.training.training_data import TrainingCells, TrainingData, load_training_data
+from models.training.validation import Validation
 from tests.models.sources.raw_scenes import TRAIN_STREETS, VAL_STREET
 
 
@@ -141,6 +142,23 @@ def test_every_method_trains_in_half_precision(regions, text_encoder, method) ->
     assert half.dtype == torch.float32
     assert half.item() == pytest.approx(whole.item(), rel=0.05)
     assert all(torch.isfinite(p.grad).all() for p in task.model.parameters() if p.grad is not None)
+
+
+@pytest.mark.parametrize("logarithms", ["two", "one"])
+def test_validation_reports_the_pairs_clamped_since_the_last_one(
+    regions, text_encoder, logarithms, monkeypatch
+) -> None:
+    source = TrainingData.from_sources(*regions, text_encoder, TrainingConfig(spacing_m=30.0), np.random.default_rng(0))
+    model = Mncl(text_encoder, MnclConfig(width=32, levels=("global", "instance"), logarithms=logarithms))
+    task = RetrievalTask(model, [source], batch_size=8, cluster=1)
+    shares = iter((0.5, 0.25, 0.125, 0.125))  # of two levels and two steps
+    monkeypatch.setattr("models.paper.mncl.clamped_share", lambda *_: torch.tensor(next(shares)))
+    recalls = {f"recall@{k}": 0.9 for k in (1, 3, 5)}
+    monkeypatch.setattr(Validation, "recall", lambda *_: {1: 0.9, 3: 0.9, 5: 0.9})
+    for _ in range(2):
+        task.loss(task.batch(np.random.default_rng(1)))
+    assert task.validate() == recalls | ({"clamped_pairs": 0.25} if logarithms == "one" else {})
+    assert task.validate() == recalls
 
 
 @pytest.mark.slow
