@@ -1,13 +1,13 @@
 """Text2Loc (Xia et al., CVPR 2024), global place recognition: a hierarchical transformer with max pooling, InfoNCE."""
 
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 from pydantic import Field
 from torch import Tensor, nn
 
 from models.language.text_encoder import TextEncoder, TokenFeatures
 from models.paper.instance_encoder import CellBatch, InstanceEncoder
-from models.paper.layers import HintEncoder, SetTransformer, masked_max
+from models.paper.layers import CauchyTransformer, HintEncoder, SetTransformer, masked_max
 from models.paper.levels import Levels
 from models.paper.losses import contrastive_loss
 from models.paper.retriever import Retriever, RetrieverConfig
@@ -19,6 +19,8 @@ class Text2LocConfig(RetrieverConfig):
     """Architecture and loss of Text2Loc."""
 
     cell_layers: int = Field(default=2, ge=0)  # attention layers over the instances of a cell
+    # how instances of a cell attend to each other: by features alone, or less with distance (CMMLoc, see `CauchyLayer`)
+    cell_attention: Literal["plain", "cauchy"] = "plain"
     hint_layers: int = Field(
         default=1, ge=0
     )  # attention layers over the hints of a description, each with a residual connection
@@ -52,7 +54,8 @@ class Text2Loc(Retriever):
             SetTransformer(width, num_layers=1, num_heads=NUM_HEADS, dropout=dropout) for _ in range(config.hint_layers)
         )
         self.instances = InstanceEncoder(text_encoder.width, width, config.inputs)
-        self.cell = SetTransformer(width, config.cell_layers, num_heads=NUM_HEADS, dropout=dropout)
+        transformer = CauchyTransformer if config.cell_attention == "cauchy" else SetTransformer
+        self.cell = transformer(width, config.cell_layers, num_heads=NUM_HEADS, dropout=dropout)
 
     def embed_hints(self, tokens: TokenFeatures) -> Tensor:
         """Return features [S, D] of hint sentences."""
@@ -68,8 +71,11 @@ class Text2Loc(Retriever):
     def embed_cells(self, batch: CellBatch, label_embeddings: Tensor) -> Levels:
         """Return the vectors of cells."""
         mask = batch.mask
-        features = self.instances.encode_padded(batch, label_embeddings)
-        features = self.cell(nn.functional.normalize(features, dim=-1), mask)
+        features = nn.functional.normalize(self.instances.encode_padded(batch, label_embeddings), dim=-1)
+        if self.config.cell_attention == "cauchy":
+            features = self.cell(features, mask, batch.geometry[..., :3])
+        else:
+            features = self.cell(features, mask)
         return Levels(nn.functional.normalize(masked_max(features, mask), dim=-1), mask)
 
     def loss(self, text: Levels, cells: Levels, same_cell: Tensor) -> Tensor:
