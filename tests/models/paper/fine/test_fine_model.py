@@ -12,7 +12,13 @@ from models.errors import WeightsError
 from models.paper.fine.checkpoint import FINE_METHODS, load_fine, save_fine
 from models.paper.fine.fine_model import CrossAttentionRound, FineTargets, nearest_instances
 from models.paper.fine.matching import MatchingConfig, sinkhorn
-from models.paper.fine.regressor import Regressor, RegressorConfig
+from models.paper.fine.regressor import (
+    MIN_STANDARD_DEVIATION,
+    Regressor,
+    RegressorConfig,
+    cholesky_factor,
+    gaussian_loss,
+)
 from models.paper.instance_encoder import DEFAULT_INPUTS, geometry_columns
 from models.training.fine_data import FineBatch
 
@@ -193,9 +199,52 @@ def test_error_of_a_position_against_a_loop(text_encoder, fine_set, error) -> No
 def test_a_norm_of_zero_has_a_gradient_of_zero(text_encoder, monkeypatch) -> None:
     model = Regressor(text_encoder, RegressorConfig(width=32, point=False, error="norm"))
     offset = torch.full((2, 2), 0.25, requires_grad=True)
-    monkeypatch.setattr(model, "point_to_instances", lambda *_: (offset, None))
+    monkeypatch.setattr(model, "point_to_instances", lambda *_: (offset, None, None))
     model.loss(None, None, None, FineTargets(offset.detach(), None)).backward()
     assert (offset.grad == 0).all()
+
+
+def test_gaussian_loss_against_a_loop(text_encoder, fine_set) -> None:
+    torch.manual_seed(0)
+    config = RegressorConfig(width=32, error="gaussian", match_weight=0)
+    model = Regressor(text_encoder, config).eval()
+    batch = fine_set.batch(5, np.random.default_rng(0))
+    hints, outputs = torch.randn(*batch.sentences.shape, 32), []
+    model.head.register_forward_hook(lambda *passed: outputs.append(passed[2].detach().double().numpy()))
+    with torch.no_grad():
+        instances = model.embed_instances(batch.cells, fine_set.training.label_embeddings)
+        position = model.locate(hints, batch.hint_mask, instances)
+        loss = model.loss(hints, batch.hint_mask, instances, batch.targets).item()
+    assert outputs[0].shape == (5, 5)
+    assert np.allclose(position, outputs[0][:, :2] / 2 + 0.5), "the mean"
+    total = 0.0
+    for numbers, true in zip(outputs[1], batch.targets.offset.double().numpy(), strict=True):
+        first, second = (math.log(1 + math.exp(x)) + MIN_STANDARD_DEVIATION for x in numbers[2:4])
+        lower = np.array([[first, 0], [numbers[4], second]])
+        covariance, residual = lower @ lower.T, numbers[:2] - (2 * true - 1)  # half cells from the centre
+        density = math.exp(-residual @ np.linalg.inv(covariance) @ residual / 2)
+        total -= math.log(density / (2 * math.pi * math.sqrt(np.linalg.det(covariance))))
+    assert loss == pytest.approx(total / 5, rel=1e-4)
+
+
+def test_gaussian_loss_is_least_at_the_covariance_of_the_residuals() -> None:
+    residual = torch.randn(500, 2, dtype=torch.float64, generator=torch.Generator().manual_seed(0))
+    residual = residual @ torch.tensor([[0.5, 0.2], [0.0, 0.1]], dtype=torch.float64)
+    best = torch.linalg.cholesky(residual.T @ residual / 500)
+    least = gaussian_loss(residual, best.expand(500, 2, 2))
+    for row, column in ((0, 0), (1, 0), (1, 1)):
+        for change in (-0.01, 0.01):
+            other = best.clone()
+            other[row, column] += change
+            assert gaussian_loss(residual, other.expand(500, 2, 2)) > least
+
+
+def test_a_certain_and_wrong_gaussian_has_finite_gradients() -> None:
+    output = torch.full((1, 3), -100.0, requires_grad=True)
+    factor = cholesky_factor(output)
+    assert factor.diagonal(dim1=1, dim2=2).min() >= MIN_STANDARD_DEVIATION
+    gaussian_loss(torch.ones(1, 2), factor).backward()
+    assert torch.isfinite(output.grad).all()
 
 
 def test_saved_and_loaded_is_the_same(fine_model, features, tmp_path) -> None:
