@@ -112,8 +112,8 @@ def test_variants_differ_in_their_inputs_alone() -> None:
         f"{method}{inputs}{text}"
         for method, text in (("mncl", ""), ("ret", ""), ("text2loc", ""), ("text2pos", ""), ("text2pos", "-text=whole"))
         for inputs in ("", points)
-    }
-    assert sum(run.needs_points for run in runs) == 5
+    } | {f"text2loc-cell_attention=cauchy{inputs}" for inputs in ("", points)}
+    assert sum(run.needs_points for run in runs) == 6
     assert (MNCL, HEAD) in fine_pairs((TABLE_1,))
     assert all(coarse.needs_points == fine.needs_points for coarse, fine in fine_pairs((TABLE_1,)))
 
