@@ -50,7 +50,7 @@ class SetTransformer(nn.Module):
 
 
 class CauchyTransformer(nn.Module):
-    """Self-attention layers over a set of positions, near ones first, with padding masked; see `CauchyLayer`."""
+    """Self-attention layers over a set with positions, less to far entries and none to padding, see `CauchyLayer`."""
 
     def __init__(self, width: int, num_layers: int, num_heads: int, dropout: float) -> None:
         super().__init__()
