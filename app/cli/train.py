@@ -119,7 +119,8 @@ def _train_model(
         from models.training.fit_points import train_points
         from models.training.training_data import load_training_cells
 
-        figures = train_points([load_training_cells(path, splits) for path in data], run[0], config, *run[1:])
+        cells = [load_training_cells(path, splits) for path in data]
+        figures = train_points(cells, run[0], config, *run[1:], architecture=model.point_encoder)
     elif method in FINE_METHODS:
         from models.training.fit_fine import train_fine
 

@@ -19,7 +19,7 @@ from index.evaluation.trials import CANDIDATE_TRIALS, Trial, all_trials
 from models.citymap.cells import CellTable, PartTable
 from models.citymap.gallery import Gallery, MapData
 from models.citymap.hints import direction_index
-from models.citymap.point_sample import Sampler
+from models.citymap.point_sample import FIXED_SAMPLING, PointSampling, Sampler
 from models.citymap.points import Ints, ranges
 from models.citymap.queries import Queries
 from models.citymap.types import DIRECTIONS, Direction, Floats, Hint, Progress
@@ -187,9 +187,15 @@ def _damage_map(data: MapData, trial: Trial, rng: np.random.Generator) -> Damage
     return DamagedMap(replace(data, gallery=replace(gallery, cells=cells)), is_remaining)
 
 
-def _remaining_sampler(cells: CellTable, is_remaining: npt.NDArray[np.bool_]) -> Sampler | None:
-    sample, starts = cells.sample, cells.parts.starts
-    return sample and (lambda chosen: sample(chosen)[is_remaining[ranges(starts[chosen], starts[chosen + 1])]])
+def _remaining_sampler(table: CellTable, is_remaining: npt.NDArray[np.bool_]) -> Sampler | None:
+    sample, starts = table.sample, table.parts.starts
+    if sample is None:
+        return None
+
+    def sample_remaining(cells: Ints, sampling: PointSampling = FIXED_SAMPLING) -> Floats:
+        return sample(cells, sampling)[is_remaining[ranges(starts[cells], starts[cells + 1])]]
+
+    return sample_remaining
 
 
 def _instance_scenes(gallery: Gallery) -> list[str]:

@@ -14,7 +14,7 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from models.citymap.point_sample import Sampler, sample_points, stack_samples
+from models.citymap.point_sample import FIXED_SAMPLING, PointSampling, Sampler, sample_points, stack_samples
 from models.citymap.points import Ints, PointTable, ranges
 from models.citymap.types import CutRules, Floats
 from models.processes import map_forked
@@ -91,7 +91,7 @@ class CellTable:
             center_m=self.center_m[rows],
             size_m=self.size_m,
             content=content.take(rows) if isinstance(content, PartTable) else (lambda chosen: content(rows[chosen])),
-            sample=sample and (lambda chosen: sample(rows[chosen])),
+            sample=sample and (lambda cells, sampling=FIXED_SAMPLING: sample(rows[cells], sampling)),
         )
 
 
@@ -135,12 +135,17 @@ def cut_cubes(
     return PartTable(np.concatenate([[0], np.cumsum(sizes)]), *columns)
 
 
-def sample_cubes(points: PointTable, rules: CutRules, centers_m: Floats, cubes: Ints) -> Floats:
+def sample_cubes(
+    points: PointTable, rules: CutRules, centers_m: Floats, cubes: Ints, sampling: PointSampling = FIXED_SAMPLING
+) -> Floats:
     """Return sampled points [R, 256, 6] of the parts in some cubes, in order of `PartTable`."""
-    members = [
-        rows for center in centers_m[cubes].astype(np.float64) for rows in _unordered_parts(points, center, rules)
-    ]
-    return stack_samples([sample_points(points.xyz[rows], points.colours(rows)) for rows in members])
+    return stack_samples(
+        [
+            sample_points(points.xyz[rows], points.colours(rows), sampling, center, rules.cell_size_m)
+            for center in centers_m[cubes].astype(np.float64)
+            for rows in _unordered_parts(points, center, rules)
+        ]
+    )
 
 
 def _cut_chunk(points: PointTable, rules: CutRules, centers: Floats) -> tuple[Any, ...]:

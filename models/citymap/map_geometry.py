@@ -13,6 +13,7 @@ from models.citymap.gallery import NearestFinder, NumberedCellIds
 from models.citymap.geometry.cutting import cut_pieces, sample_pieces, scan_pieces
 from models.citymap.geometry.pieces import PieceTable
 from models.citymap.instances import InstanceTable
+from models.citymap.point_sample import FIXED_SAMPLING, PointSampling
 from models.citymap.points import Ints, PointTable
 from models.citymap.types import CityMap, CutRules, Floats
 from models.errors import MapError
@@ -27,7 +28,7 @@ class MapGeometry(Protocol):
         """Cut the cubes around centres [N, 3]; cubes with fewer than `min_parts` parts may be left empty."""
         ...
 
-    def sample(self, centers_m: Floats, cubes: Ints) -> Floats:
+    def sample(self, centers_m: Floats, cubes: Ints, sampling: PointSampling = FIXED_SAMPLING) -> Floats:
         """Return sampled points [R, 256, 6] of the parts in some of these cubes, in order of `PartTable`."""
         ...
 
@@ -44,9 +45,9 @@ class ScanGeometry:
         del min_parts
         return cut_cubes(self.points, centers_m, self.rules, progress)
 
-    def sample(self, centers_m: Floats, cubes: Ints) -> Floats:
+    def sample(self, centers_m: Floats, cubes: Ints, sampling: PointSampling = FIXED_SAMPLING) -> Floats:
         """Return sampled points, as `MapGeometry.sample`."""
-        return sample_cubes(self.points, self.rules, centers_m, cubes)
+        return sample_cubes(self.points, self.rules, centers_m, cubes, sampling)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -62,9 +63,9 @@ class PieceGeometry:
         """Cut the cubes around centres, as `MapGeometry.cut`."""
         return cut_pieces(self.pieces, self.rgb, centers_m, self.rules, progress, min_parts)
 
-    def sample(self, centers_m: Floats, cubes: Ints) -> Floats:
+    def sample(self, centers_m: Floats, cubes: Ints, sampling: PointSampling = FIXED_SAMPLING) -> Floats:
         """Return sampled points, as `MapGeometry.sample`."""
-        return sample_pieces(self.pieces, self.rgb, self.shapes, centers_m[cubes], self.rules)
+        return sample_pieces(self.pieces, self.rgb, self.shapes, centers_m[cubes], self.rules, sampling)
 
     @property
     def scene(self) -> Ints:
@@ -103,9 +104,9 @@ class ScannedPieceGeometry:
         parts = self.pieces.cut(centers_m, progress)
         return replace(parts, closest_m=scan_pieces(table, shapes, centers_m, rules))
 
-    def sample(self, centers_m: Floats, cubes: Ints) -> Floats:
+    def sample(self, centers_m: Floats, cubes: Ints, sampling: PointSampling = FIXED_SAMPLING) -> Floats:
         """Return sampled points, as `MapGeometry.sample`."""
-        return self.pieces.sample(centers_m, cubes)
+        return self.pieces.sample(centers_m, cubes, sampling)
 
 
 def build_geometry(city_map: CityMap) -> MapGeometry:

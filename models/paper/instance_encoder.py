@@ -13,13 +13,14 @@ import torch
 from torch import Tensor, nn
 
 from models.citymap.cells import CELLS_PER_BLOCK, CellTable
-from models.citymap.point_sample import Sampler
+from models.citymap.point_sample import FIXED_SAMPLING, PointSampling, Sampler
 from models.citymap.points import Ints, ranges
 from models.errors import WeightsError
 from models.files import cache_directory, open_atomic
 from models.language.text_encoder import fingerprint_of
 from models.paper.layers import mlp
 from models.paper.point_encoder import POINT_WIDTH, PointEncoder
+from models.paper.relation_attention import InstanceRelation, RelationAttention
 
 Input = Literal["position", "closest", "size", "count", "colour", "label", "points"]
 # Columns of `CellFeatures.geometry` per input. "position" is the centre; "closest" is the closest point (2 columns),
@@ -90,7 +91,7 @@ class CellFeatures:
         point_features = np.zeros((len(label), 0), dtype=np.float32)
         return cls(parts.starts, geometry, label, labels, cells.sample, point_features)
 
-    def with_point_features(self, encoder: PointEncoder | None) -> "CellFeatures":
+    def with_point_features(self, encoder: PointEncoder | None, cached: bool = True) -> "CellFeatures":
         """Return a copy with `point_features` of an encoder, computed or read from the cache; itself without one.
 
         Raises:
@@ -98,6 +99,8 @@ class CellFeatures:
         """
         if encoder is None or not len(self):
             return self
+        if not cached:
+            return replace(self, point_features=self._encode_points(encoder))
         path = cache_directory() / "points" / f"{self._cache_key(encoder)}.npy"
         try:
             point_features = np.load(path)
@@ -114,7 +117,8 @@ class CellFeatures:
         """Return the point features [R, S] of all instances."""
         device = next(encoder.parameters()).device
         with torch.inference_mode():
-            parts = [encoder(self.points(cells).to(device)).cpu().numpy() for cells in self._point_batches()]
+            fixed = PointSampling(encoder.frame)
+            parts = [encoder(self.points(cells, fixed).to(device)).cpu().numpy() for cells in self._point_batches()]
         return np.concatenate(parts)
 
     def _point_batches(self) -> Iterator[Ints]:
@@ -131,25 +135,26 @@ class CellFeatures:
         """Return a sha256 of the encoder, the points of a few cells, and all other features."""
         shape = [(level.count, level.radius, level.neighbours) for level in encoder.levels]
         digest = hashlib.sha256(f"{_CACHE_FORMAT} {shape} {fingerprint_of(encoder.state_dict())}".encode())
-        points = self.points(np.linspace(0, len(self) - 1, CACHE_KEY_CELLS).astype(np.int64)).numpy()
+        cells = np.linspace(0, len(self) - 1, CACHE_KEY_CELLS).astype(np.int64)
+        points = self.points(cells, PointSampling(encoder.frame)).numpy()
         for column in (self.starts, self.geometry, self.label, points):
             digest.update(np.ascontiguousarray(column).tobytes())
         return digest.hexdigest()
 
-    def points(self, cells: Ints) -> Tensor:
+    def points(self, cells: Ints, sampling: PointSampling = FIXED_SAMPLING) -> Tensor:
         """Return points [R, 256, 6] of the instances of some cells; raise WeightsError if they are not available."""
         if self.sample is None:
             raise WeightsError(
                 "these weights need the points of the instances (model.inputs), which an index does not store; "
                 "use a map or a data set, or other weights"
             )
-        return torch.from_numpy(self.sample(cells))
+        return torch.from_numpy(self.sample(cells, sampling))
 
     def __len__(self) -> int:
         return len(self.starts) - 1
 
-    def batch(self, cells: npt.NDArray[Any]) -> "CellBatch":
-        """Return some cells as tensors, padded to the largest of them."""
+    def batch(self, cells: npt.NDArray[Any], sampling: PointSampling | None = None) -> "CellBatch":
+        """Return some cells as tensors, padded to the largest of them, and with points if there is a sampling."""
         sizes = np.diff(self.starts)[cells]
         mask = np.arange(max(1, sizes.max())) < sizes[:, None]
         rows = ranges(self.starts[cells], self.starts[cells + 1])
@@ -161,7 +166,8 @@ class CellFeatures:
             self.label[rows],
             self.point_features[rows],
         )
-        return CellBatch(*(torch.from_numpy(column) for column in (geometry, label, mask, point_features)))
+        batch = CellBatch(*(torch.from_numpy(column) for column in (geometry, label, mask, point_features)))
+        return batch if sampling is None else replace(batch, points=self.points(cells, sampling))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -203,10 +209,21 @@ class CellBatch:
     label: Tensor  # [B, I] int64
     mask: Tensor  # [B, I] bool, True where an instance is real
     point_features: Tensor  # [B, I, S] float32, S = 0 without a point encoder
+    points: Tensor | None = None  # [R, 256, 6] of the real instances, cell after cell, to encode in a training step
 
     def to(self, device: torch.device) -> "CellBatch":
         """Return a copy on a device."""
-        return CellBatch(*(x.to(device) for x in (self.geometry, self.label, self.mask, self.point_features)))
+        batch = CellBatch(*(x.to(device) for x in (self.geometry, self.label, self.mask, self.point_features)))
+        return batch if self.points is None else replace(batch, points=self.points.to(device))
+
+    def with_point_features(self, encoder: PointEncoder | None) -> "CellBatch":
+        """Return a copy with the features of its points, through which gradients reach the encoder; itself without."""
+        if encoder is None or self.points is None:
+            return self
+        encoded = encoder(self.points)
+        point_features = encoded.new_zeros(*self.mask.shape, encoded.shape[-1])
+        point_features[self.mask] = encoded
+        return replace(self, point_features=point_features, points=None)
 
 
 def geometry_columns(inputs: Sequence[Input]) -> list[int]:
@@ -222,9 +239,18 @@ class InstanceEncoder(nn.Module):
     leaves the points out and adds the size, the label as a text embedding, so that any word can be a label, and the
     point closest to the cell's centre, because hints refer to closest points. Differs: the number of points enters as
     its logarithm, and a column says whether the colour is known.
+
+    With `relations`, the point features of a cell go through relation-enhanced attention, as in MNCL's code.
     """
 
-    def __init__(self, label_width: int, width: int, inputs: Sequence[Input] = DEFAULT_INPUTS) -> None:
+    def __init__(
+        self,
+        label_width: int,
+        width: int,
+        inputs: Sequence[Input] = DEFAULT_INPUTS,
+        relations: bool = False,
+        dropout: float = 0.0,  # of this attention
+    ) -> None:
         super().__init__()
         of_branch = {
             name: geometry_columns([part for part in parts if part in inputs]) for name, parts in INPUT_BRANCHES.items()
@@ -235,23 +261,44 @@ class InstanceEncoder(nn.Module):
         self.shape = mlp(POINT_WIDTH, width) if "points" in inputs else None
         parts = len(self.columns) + sum(part is not None for part in (self.label, self.shape))
         self.merge = mlp(parts * width, width, width)
+        self.relation = InstanceRelation(width) if relations else None
+        self.attention = RelationAttention(width, dropout) if relations else None
 
     def encode_padded(self, batch: CellBatch, label_embeddings: Tensor) -> Tensor:
         """Return features [B, I, D] of cells, 0 at padding; `label_embeddings` [L, W] has one row per label."""
         mask = batch.mask
-        encoded = self(batch.geometry[mask], label_embeddings[batch.label[mask]], batch.point_features[mask])
+        encoded = self(batch.geometry[mask], label_embeddings[batch.label[mask]], batch.point_features[mask], mask)
         features: Tensor = encoded.new_zeros(*mask.shape, encoded.shape[-1])
         features[mask] = encoded
         return features
 
-    def forward(self, geometry: Tensor, label_embedding: Tensor, point_features: Tensor | None = None) -> Tensor:
-        """Return features [R, D] from geometry [R, 16], label vectors [R, W] and point features [R, S]."""
+    def forward(
+        self,
+        geometry: Tensor,
+        label_embedding: Tensor,
+        point_features: Tensor | None = None,
+        mask: Tensor | None = None,
+    ) -> Tensor:
+        """Return features [R, D] from geometry [R, 16], label vectors [R, W] and point features [R, S].
+
+        The mask [B, I] of the cells, whose real entries are the rows, is for relations alone.
+        """
         parts = [branch(geometry[:, self.columns[name]]) for name, branch in self.branches.items()]
         if self.label is not None:
             parts.append(self.label(label_embedding))
         if self.shape is not None:
             if point_features is None or not point_features.shape[-1]:
                 raise ValueError("the cells have no point features; call `with_point_features` first")
-            parts.append(self.shape(point_features))
+            shape = self.shape(point_features)
+            parts.append(shape if self.attention is None else self._relate(shape, geometry, mask))
         merged: Tensor = self.merge(torch.cat([nn.functional.normalize(part, dim=-1) for part in parts], dim=-1))
         return merged
+
+    def _relate(self, shape: Tensor, geometry: Tensor, mask: Tensor | None) -> Tensor:
+        """Return point features [R, D] after attention among those of each cell."""
+        assert self.attention is not None
+        assert self.relation is not None
+        assert mask is not None, "relations are among the instances of a cell"
+        padded, centers = shape.new_zeros(*mask.shape, shape.shape[-1]), geometry.new_zeros(*mask.shape, 3)
+        padded[mask], centers[mask] = shape, geometry[:, :3]
+        return self.attention.attend(padded, self.relation(centers, mask), mask)[mask]

@@ -19,6 +19,7 @@ from models.paper.losses import (
     negative_contrastive_loss,
     negative_weights,
 )
+from models.paper.point_model import check_point_option
 from models.paper.retriever import Retriever, RetrieverConfig
 from models.paper.scene_graph import Aggregate, AttentionAxis, AttentionQuery, CellEdges, HintEdges, SceneGraph
 
@@ -32,6 +33,8 @@ class MnclConfig(RetrieverConfig):
     levels: tuple[Level, ...] = ("global", "instance", "relation")
     # similarity of the instance and relation levels, see `set_similarity`: "hints" in the code, "both" in the paper
     matching: Matching = "hints"
+    # relation-enhanced attention among the point features of a cell (the released code); the paper does not have it
+    point_relations: bool = False
     cell_layers: int = Field(default=2, ge=0)  # attention layers over the instances of a cell
     hint_layers: int = Field(default=1, ge=0)  # attention layers over the hints of a description
     dropout: float = Field(default=0.1, ge=0, lt=1)  # of the attention layers in training
@@ -50,6 +53,8 @@ class MnclConfig(RetrieverConfig):
     aggregate: Aggregate = "code"
     attention_query: AttentionQuery = "edges"  # see `ExternalSpaceAttention`
     attention_axis: AttentionAxis = "edges"  # "code" is the released code, whose edges also see earlier nodes
+
+    _check_point_relations = field_validator("point_relations")(check_point_option)
 
     @field_validator("levels")
     @classmethod
@@ -77,7 +82,7 @@ class Mncl(Retriever):
         self._clamped_shares: list[Tensor] = []  # of each level and step since `pop_loss_figures`
         self.hints = HintEncoder(text_encoder.width, width, dropout)
         self.description = SetTransformer(width, config.hint_layers, num_heads=4, dropout=dropout)
-        self.instances = InstanceEncoder(text_encoder.width, width, config.inputs)
+        self.instances = InstanceEncoder(text_encoder.width, width, config.inputs, config.point_relations, dropout)
         self.cell = SetTransformer(width, config.cell_layers, num_heads=4, dropout=dropout)
         if "relation" in config.levels:
             self.hint_edges, self.cell_edges = HintEdges(width), CellEdges(width)

@@ -1,15 +1,41 @@
 """PointNet++ (Qi et al., NeurIPS 2017), features of the points of an instance."""
 
+from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import pairwise
-from typing import Final
+from typing import Final, Literal
 
 import torch
 from torch import Tensor, nn
+from torch.utils.checkpoint import checkpoint
+
+from models.citymap.point_sample import PointFrame
 
 POINT_WIDTH: Final = 256
-# For each set-abstraction level: number of points to keep, radius and number of neighbours, widths of the layers.
-_LEVELS: Final = ((64, 0.2, 16, (32, 64)), (16, 0.4, 16, (64, 128)))
-_LAST: Final = (128, POINT_WIDTH)
+PointArchitecture = Literal["small", "official"]
+INSTANCES_PER_CHECKPOINT: Final = 32  # of the official encoder; bounds the memory for gradients
+
+
+@dataclass(frozen=True, slots=True)
+class PointLayers:
+    """The layers of a point encoder."""
+
+    # for each set-abstraction level: number of points to keep, radius and number of neighbours, widths of the layers
+    levels: tuple[tuple[int, float, int, tuple[int, ...]], ...]
+    pooled: tuple[int, ...]  # widths of the layers before the maximum over the remaining points
+    head: tuple[int, ...]  # widths of the linear layers after it
+    frame: PointFrame  # of the positions, see `PointSampling`
+
+
+ARCHITECTURES: Final[dict[PointArchitecture, PointLayers]] = {
+    "small": PointLayers(((64, 0.2, 16, (32, 64)), (16, 0.4, 16, (64, 128))), (128, POINT_WIDTH), (), "part"),
+    "official": PointLayers(
+        ((128, 0.2, 32, (32, 64)), (64, 0.3, 32, (128, 128)), (32, 0.4, 32, (256, 256))),
+        (512, 1024),
+        (512, POINT_WIDTH),
+        "cell",
+    ),
+}
 
 
 def farthest_points(xyz: Tensor, count: int) -> Tensor:
@@ -38,6 +64,10 @@ def _layers(*widths: int) -> nn.Sequential:
     return nn.Sequential(*(part for layer in layers for part in layer))
 
 
+def _head(widths: Sequence[int]) -> nn.Sequential:
+    return nn.Sequential(*(part for pair in pairwise(widths) for part in (nn.Linear(*pair), nn.ReLU())))
+
+
 class SetAbstraction(nn.Module):
     """A level of PointNet++: the feature of a kept point is the maximum over its neighbourhood."""
 
@@ -57,24 +87,47 @@ class SetAbstraction(nn.Module):
 
 
 class PointEncoder(nn.Module):
-    """PointNet++ with three single-scale set-abstraction levels, the last one over all remaining points.
+    """PointNet++ with single-scale set-abstraction levels and a level over all remaining points.
 
-    It is trained to classify label and colour (`models.training.fit_points`), then frozen; the papers train it further.
+    It is trained to classify label and colour (`models.training.fit_points`), then frozen or trained further.
+
+    "small" has two levels, 66,272 parameters, and sees each instance in a unit ball. "official" is the encoder of
+    Text2Pos, Text2Loc and MNCL: three levels, each of which keeps half of the points, then linear layers of 1024, 512
+    and 256; 1,446,496 parameters, 1,454,206 with the heads for the 22 classes and 8 colours of KITTI360Pose. It sees
+    instances in the frame of their cell, so that it knows size and place. Differs from the released code: layer norm,
+    where that has batch norm; a ball has its 32 nearest points, there any 32; and no point joins the ball of another
+    instance, as the self-loops that PyG's PointConv adds by default make it there. Its gradients are computed with
+    checkpoints, which takes a third more time and bounds the memory.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, architecture: PointArchitecture = "small") -> None:
         super().__init__()
+        layers = ARCHITECTURES[architecture]
+        self.architecture, self.frame = architecture, layers.frame
         width, levels = 3, []
-        for count, radius, neighbours, widths in _LEVELS:
+        for count, radius, neighbours, widths in layers.levels:
             levels.append(SetAbstraction(width, count, radius, neighbours, widths))
             width = widths[-1]
         self.levels = nn.ModuleList(levels)
-        self.last = _layers(width + 3, *_LAST)
+        self.last = _layers(width + 3, *layers.pooled)
+        self.head = _head((layers.pooled[-1], *layers.head))
+
+    @property
+    def is_trained_further(self) -> bool:
+        """Whether its weights are trained with those of the model that has it."""
+        return next(self.parameters()).requires_grad
 
     def forward(self, points: Tensor) -> Tensor:
         """Return features [R, POINT_WIDTH] of instances from points [R, P, 6]: position and colour."""
+        if self.architecture == "small":
+            return self._encode(points)
+        parts = points.split(INSTANCES_PER_CHECKPOINT)
+        return torch.cat([checkpoint(self._encode, part, use_reentrant=False) for part in parts])
+
+    def _encode(self, points: Tensor) -> Tensor:
         xyz, features = points[..., :3], points[..., 3:]
         for level in self.levels:
             xyz, features = level(xyz, features)
         pooled: Tensor = self.last(torch.cat([xyz, features], dim=-1)).amax(dim=1)
-        return pooled
+        encoded: Tensor = self.head(pooled)
+        return encoded

@@ -9,10 +9,9 @@ from models.language.text_encoder import TextEncoder, TokenFeatures
 from models.paper.instance_encoder import CellBatch, InstanceEncoder
 from models.paper.layers import masked_max, mlp
 from models.paper.levels import Levels
+from models.paper.relation_attention import InstanceRelation, RelationAttention
 from models.paper.retriever import Retriever, RetrieverConfig
 from models.paper.text2pos import WordEncoder, pairwise_ranking_loss
-
-NUM_HEADS = 4
 
 
 class RetConfig(RetrieverConfig):
@@ -22,21 +21,6 @@ class RetConfig(RetrieverConfig):
     hint_layers: int = Field(default=2, ge=0)  # relation-enhanced layers over the hints of a description
     dropout: float = Field(default=0.1, ge=0, lt=1)  # of these layers in training
     margin: float = Field(default=0.35, ge=0)  # of the ranking loss
-
-
-class InstanceRelation(nn.Module):
-    """Pooled relations of instances: max over j of R_ij = W (c_i - c_j) (RET, relation-enhanced self-attention)."""
-
-    def __init__(self, width: int) -> None:
-        super().__init__()
-        self.linear = nn.Linear(3, width, bias=False)
-
-    def forward(self, centers: Tensor, mask: Tensor) -> Tensor:
-        """Return [B, K, D] from centres [B, K, 3] with mask [B, K]."""
-        mapped = self.linear(centers)
-        # The maximum over j does not depend on c_i, so no tensor of size K x K x D is needed.
-        pooled: Tensor = mapped + masked_max(-mapped, mask)[:, None]
-        return pooled
 
 
 class HintRelation(nn.Module):
@@ -52,36 +36,19 @@ class HintRelation(nn.Module):
         return pooled
 
 
-class RelationLayer(nn.Module):
-    """A transformer layer with relation-enhanced self-attention: softmax(Q K^T / sqrt(d)) (V + pooled R)."""
+class RelationLayer(RelationAttention):
+    """A transformer layer with relation-enhanced self-attention."""
 
     def __init__(self, width: int, dropout: float) -> None:
-        super().__init__()
-        self.project = nn.Linear(width, 3 * width)
-        self.merge = nn.Linear(width, width)
+        super().__init__(width, dropout)
         self.feed_forward = mlp(width, 2 * width, width)
         self.attention_norm, self.feed_forward_norm = nn.LayerNorm(width), nn.LayerNorm(width)
-        self.dropout = nn.Dropout(dropout)
 
     def forward(self, x: Tensor, relation: Tensor, mask: Tensor) -> Tensor:
         """Apply the layer to x and pooled relations, both [B, K, D]; the result is undefined at padding."""
         x = self.attention_norm(x + self.dropout(self.attend(x, relation, mask)))
         updated: Tensor = self.feed_forward_norm(x + self.dropout(self.feed_forward(x)))
         return updated
-
-    def attend(self, x: Tensor, relation: Tensor, mask: Tensor) -> Tensor:
-        """Apply the attention alone; arguments as in `forward`."""
-        b, k, d = x.shape
-        query, key, value = self.project(x).chunk(3, dim=-1)
-        query, key, value = (
-            part.view(b, k, NUM_HEADS, -1).transpose(1, 2) for part in (query, key, value + relation)
-        )  # [B, NUM_HEADS, K, D / NUM_HEADS]
-        dropout = self.dropout.p if self.training else 0.0
-        mixed = nn.functional.scaled_dot_product_attention(
-            query, key, value, attn_mask=mask[:, None, None], dropout_p=dropout
-        )
-        merged: Tensor = self.merge(mixed.transpose(1, 2).reshape(b, k, d))
-        return merged
 
 
 class RelationTransformer(nn.Module):

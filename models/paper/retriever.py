@@ -6,16 +6,17 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 import torch
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, field_validator
 from torch import Tensor
 from torch.nn.utils.rnn import pad_sequence
 
 from models.citymap.cells import CELLS_PER_BLOCK
 from models.language.recent_features import RecentFeatures
-from models.language.text_encoder import DEFAULT_TEXT_ENCODER, TextEncoder, TextEncoderModel, TokenFeatures
+from models.language.text_encoder import DEFAULT_TEXT_ENCODER, TextEncoder, TokenFeatures
 from models.paper.instance_encoder import DEFAULT_INPUTS, CellBatch, CellFeatures, Input
 from models.paper.levels import Level, Levels, Matching, sum_of_z_scores
-from models.paper.point_encoder import PointEncoder
+from models.paper.point_encoder import PointArchitecture
+from models.paper.point_model import PointModel, build_point_encoder, check_point_option
 
 HINT_CACHE_SIZE = 20_000  # sentences; 20 MB at D = 256
 ENCODE_BATCH = 256  # cells or descriptions
@@ -31,6 +32,11 @@ class RetrieverConfig(BaseModel):
     width: int = Field(default=256, ge=4, multiple_of=4)  # D, size of the vectors
     # features of an instance, see `InstanceEncoder`; "points" adds a `PointEncoder`
     inputs: tuple[Input, ...] = Field(default=DEFAULT_INPUTS, min_length=1)
+    # the point encoder, see `PointEncoder`: ours is "small", that of the papers is "official"
+    point_encoder: PointArchitecture = "small"
+    # whether the point encoder keeps the weights of its training as a classifier; False trains it further, as the
+    # papers do, on points drawn anew in each step
+    points_frozen: bool = True
     # weight of each of `Retriever.levels` in the score of a cell, fitted on validation data; if empty, the z-scores of
     # the levels over the gallery are added
     level_weights: tuple[float, ...] = ()
@@ -40,8 +46,10 @@ class RetrieverConfig(BaseModel):
     global_temperature: float | None = None
     global_temperature_decay: float | None = None
 
+    _check_point_option = field_validator("point_encoder", "points_frozen")(check_point_option)
 
-class Retriever(TextEncoderModel):
+
+class Retriever(PointModel):
     """A retriever; subclasses define the text branch, the cell branch and the loss."""
 
     method: ClassVar[str]
@@ -50,7 +58,7 @@ class Retriever(TextEncoderModel):
     def __init__(self, text_encoder: TextEncoder, config: RetrieverConfig) -> None:
         super().__init__(text_encoder)
         self.config = config
-        self.points = PointEncoder().requires_grad_(False) if "points" in config.inputs else None
+        self.points = build_point_encoder(config)
         self._hint_cache = RecentFeatures(self._read_sentences, HINT_CACHE_SIZE)
 
     @property
@@ -123,14 +131,6 @@ class Retriever(TextEncoderModel):
         """Switch between training and evaluation, and clear the cached features of the previous weights."""
         self._hint_cache.clear()
         return super().train(mode)
-
-    def with_point_features(self, cells: CellFeatures) -> CellFeatures:
-        """Return cells with the features of the point encoder, or unchanged if the model has none.
-
-        Raises:
-            WeightsError: the model has a point encoder, but the points are not available.
-        """
-        return cells.with_point_features(self.points)
 
     @torch.inference_mode()
     def encode_description(self, hints: Sequence[str]) -> Levels:

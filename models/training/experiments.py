@@ -44,6 +44,11 @@ class TrainingRun:
         """Whether the run needs the point encoder."""
         return "points" in dict(self.changes).get("inputs", ())
 
+    @property
+    def point_run(self) -> "TrainingRun":
+        """The training of the point encoder that the run needs."""
+        return TrainingRun(POINTS, tuple(change for change in self.changes if change[0] == "point_encoder"))
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TableRow:

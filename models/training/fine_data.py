@@ -18,7 +18,7 @@ from models.citymap.types import Floats
 from models.paper.fine.fine_model import FineModel, FineTargets
 from models.paper.instance_encoder import CellBatch, CellFeatures
 from models.sources.source import SCENE_GAP_M
-from models.training.retrieval_data import SYMMETRIES, DrawnHints, TrainingSet, reflect_cells
+from models.training.retrieval_data import SYMMETRIES, DrawnHints, TrainingSet
 
 CLONED_SHARE = 0.5  # of the examples use another cell than the best one (map cloning)
 # Of Text2Loc's map cloning: how far away the centre of a cell may be on each axis, and how many hints it may lack.
@@ -102,7 +102,7 @@ class FineSet:
         matrix = torch.from_numpy(SYMMETRIES[symmetry])
         offset = cell_offsets(self.cells, cells, self.positions_m[positions]).astype(np.float32)
         return FineBatch(
-            cells=reflect_cells(self.training.features.batch(cells), matrix),
+            cells=self.training.draw_cells(cells, symmetry, rng),
             sentences=torch.from_numpy(drawn.sentences),
             hint_mask=torch.from_numpy(drawn.mask),
             targets=FineTargets(reflect_offset(torch.from_numpy(offset), matrix), torch.from_numpy(match)),
@@ -142,12 +142,14 @@ class FineValidation:
         other = np.where(count > 0, np.append(neighbours, -1)[np.minimum(pick, len(neighbours))], -1)
         rows = np.column_stack([queries.truth, other])
         offset = cell_offsets(cells, rows, queries.positions_m[:, None])
-        features = model.with_point_features(CellFeatures.from_cells(cells, np.array(gallery.labels)))
+        features = CellFeatures.from_cells(cells, np.array(gallery.labels))
+        if model.config.points_frozen:
+            features = model.with_point_features(features)
         return cls(features, cells.size_m, queries.sentences, rows, offset)
 
     def residuals_m(self, model: FineModel) -> Floats:
         """Return the errors [Q, 2, 2] of a model's predictions in the two cells, metres (east, north)."""
-        predicted = model.predict(self.descriptions, self.features, self.rows)
+        predicted = model.predict(self.descriptions, model.validation_features(self.features), self.rows)
         return (predicted - self.offset) * self.size_m
 
     def metrics(self, model: FineModel) -> dict[str, float]:

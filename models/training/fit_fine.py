@@ -49,7 +49,9 @@ class FineTask:
         training.to(device)
         mask = examples.hint_mask.to(device)
         hints = training.vocabulary.features(self.model.embed_hints, examples.sentences.to(device), mask)
-        instances = self.model.embed_instances(examples.cells.to(device), training.label_embeddings)
+        instances = self.model.embed_instances(
+            self.model.encode_points(examples.cells.to(device)), training.label_embeddings
+        )
         targets = FineTargets(examples.targets.offset.to(device), examples.targets.match.to(device))
         return self.model.loss(hints, mask, instances, targets)
 

@@ -1,4 +1,4 @@
-"""Training of the point encoder as a classifier of label and colour; it is frozen afterwards.
+"""Training of the point encoder as a classifier of label and colour, before a model has it, frozen or not.
 
 The loss is the sum of the cross-entropies of the two heads, as in Text2Pos and its successors up to MNCL.
 """
@@ -17,17 +17,19 @@ from torch import Tensor, nn
 
 from models.checkpoint import CONFIG_FILE, WEIGHTS_FILE
 from models.citymap.colours import KITTI360_PALETTE
+from models.citymap.point_sample import PointFrame, PointSampling
 from models.errors import TrainingError, WeightsError
 from models.files import replace_file
 from models.paper.fine.fine_model import FineModel
 from models.paper.instance_encoder import GEOMETRY_WIDTHS, CellFeatures
-from models.paper.point_encoder import POINT_WIDTH, PointEncoder
+from models.paper.point_encoder import POINT_WIDTH, PointArchitecture, PointEncoder
 from models.paper.retriever import Retriever
 from models.training.engine.loop import LoopConfig, Progress, pick_device, run_training
 from models.training.settings import TrainingConfig, load_settings
 from models.training.training_data import TrainingCells, TrainingData
 
 TRAINING_CELLS_PER_SOURCE, VALIDATION_CELLS_PER_SOURCE = 800, 100
+_ARCHITECTURE = "point_encoder"  # key of config.json; "small" if it is missing
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -39,7 +41,9 @@ class PointExamples:
     colour: Tensor
 
     @classmethod
-    def sample(cls, parts: Sequence[CellFeatures], labels: Sequence[str], size: int, seed: int) -> "PointExamples":
+    def sample(
+        cls, parts: Sequence[CellFeatures], labels: Sequence[str], size: int, seed: int, frame: PointFrame = "part"
+    ) -> "PointExamples":
         """Draw the instances of `size` cells of each gallery; a class that is not in `labels` is unknown."""
         rng, number = np.random.default_rng(seed), {label: n for n, label in enumerate(labels)}
         points, label, rgb = [], [], []
@@ -47,7 +51,7 @@ class PointExamples:
             cells = rng.choice(len(part), min(size, len(part)), replace=False)
             batch = part.batch(cells)
             codes = np.array([number.get(name, -100) for name in part.labels])
-            points.append(part.points(cells))
+            points.append(part.points(cells, PointSampling(frame)))
             label.append(codes[batch.label[batch.mask]])
             columns = batch.geometry[batch.mask][:, -GEOMETRY_WIDTHS["colour"] :].numpy()
             rgb.append(np.where(columns[:, 3:] > 0, columns[:, :3], np.nan))
@@ -119,15 +123,23 @@ def train_points(
     run_dir: Path | None = None,
     resume: bool = False,
     progress: Callable[[Progress], None] | None = None,
+    *,
+    architecture: PointArchitecture = "small",
 ) -> dict[str, float]:
     """Train a point encoder, save it to `out` for `TrainingConfig.points`, and return its metrics; see `fit_points`."""
     torch.manual_seed(config.seed)
-    encoder = PointEncoder()
+    encoder = PointEncoder(architecture)
     metrics = fit_points(encoder, sources, config, run_dir, resume, progress)
     out.mkdir(parents=True, exist_ok=True)
     replace_file(out / WEIGHTS_FILE, save(encoder.cpu().state_dict()))
-    facts = {"config": config.model_dump(mode="json"), "validation": metrics, "sources": [s.facts for s in sources]}
-    replace_file(out / CONFIG_FILE, (json.dumps({"method": "points", **facts}, indent=2) + "\n").encode())
+    record = {
+        "method": "points",
+        _ARCHITECTURE: architecture,
+        "config": config.model_dump(mode="json"),
+        "validation": metrics,
+        "sources": [source.facts for source in sources],
+    }
+    replace_file(out / CONFIG_FILE, (json.dumps(record, indent=2) + "\n").encode())
     return metrics
 
 
@@ -139,10 +151,11 @@ def prepare_point_encoder(
     resume: bool,
     progress: Callable[[Progress], None] | None,
 ) -> dict[str, float]:
-    """Load or train the point encoder of a model that has one, and compute the point features of all sources.
+    """Load or train the point encoder of a model that has one, and prepare the sources for it.
 
-    The point encoder is loaded from `config.points`, or trained on the cells of the sources. Other arguments, result
-    and errors as `fit_points`.
+    The point encoder is loaded from `config.points`, or trained on the cells of the sources. The sources get their
+    point features, or draw points for each step if the model needs it. Other arguments, result and errors as
+    `fit_points`.
     """
     if model.points is None:
         if config.points:
@@ -155,20 +168,34 @@ def prepare_point_encoder(
     else:
         metrics = _read_points(model.points, config.points)
         model.points.to(pick_device(config.device))
+    model.points.requires_grad_(not model.config.points_frozen)
     for source in sources:
-        source.training.features = model.with_point_features(source.training.features)
+        if model.draws_points:
+            source.training.point_frame = model.points.frame
+        else:
+            source.training.features = model.with_point_features(source.training.features)
     return metrics
 
 
 def _read_points(encoder: PointEncoder, directory: Path) -> dict[str, float]:
     """Load a point encoder of `train_points` in place, and return its metrics."""
+    wanted, command = encoder.architecture, f"hereabouts train --method points --out {directory}"
+    if wanted != "small":
+        command += f" --set model.point_encoder={wanted}"
     try:
+        record = json.loads((directory / CONFIG_FILE).read_text())
+        metrics: dict[str, float] = record["validation"]
+        stored = record.get(_ARCHITECTURE, "small")
+        if stored != wanted:
+            raise WeightsError(
+                f"training.points={directory} has a point encoder of the kind '{stored}', but model.point_encoder is "
+                f"'{wanted}'; set model.point_encoder={stored}, or train another one with '{command}'"
+            )
         encoder.load_state_dict(load_file(directory / WEIGHTS_FILE))
-        metrics: dict[str, float] = json.loads((directory / CONFIG_FILE).read_text())["validation"]
     except (OSError, SafetensorError, RuntimeError, ValueError, KeyError) as error:
         raise WeightsError(
-            f"training.points={directory} has no point encoder ({type(error).__name__}); train one with "
-            f"'hereabouts train --method points --out {directory}', or leave training.points out"
+            f"training.points={directory} has no point encoder ({type(error).__name__}); train one with '{command}', "
+            "or leave training.points out"
         ) from error
     encoder.requires_grad_(False).eval()
     return metrics
@@ -192,13 +219,16 @@ def fit_points(
     """
     labels = sorted({label for source in sources for label in source.training.labels})
     training = PointExamples.sample(
-        [source.training for source in sources], labels, TRAINING_CELLS_PER_SOURCE, config.seed
+        [source.training for source in sources], labels, TRAINING_CELLS_PER_SOURCE, config.seed, encoder.frame
     )
     validation = PointExamples.sample(
-        [source.validation for source in sources], labels, VALIDATION_CELLS_PER_SOURCE, config.seed
+        [source.validation for source in sources], labels, VALIDATION_CELLS_PER_SOURCE, config.seed, encoder.frame
     )
     model = _Classifier(encoder.requires_grad_(True), len(labels))
     task = _PointTask(model, training, validation, config.batch_size)
-    history = run_training(task, config, run_dir, resume, progress)
+    record = config.model_dump(mode="json")
+    if encoder.architecture != "small":
+        record |= {_ARCHITECTURE: encoder.architecture}
+    history = run_training(task, config, run_dir, resume, progress, record=record)
     encoder.requires_grad_(False).eval()
     return next(row.figures for row in history.rows if row.step == history.best_step)

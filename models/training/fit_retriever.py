@@ -56,7 +56,7 @@ class RetrievalTask:
         mask = examples.hint_mask.to(device)
         hints = training.vocabulary.features(self.model.embed_hints, examples.sentences.to(device), mask)
         text = self.model.embed_texts(hints, mask)
-        cells = self.model.embed_cells(examples.cells.to(device), training.label_embeddings)
+        cells = self.model.embed_cells(self.model.encode_points(examples.cells.to(device)), training.label_embeddings)
         # Half precision is too coarse for logits at a temperature of 0.05.
         with torch.autocast(device.type, enabled=False):
             return self.model.loss(_in_float32(text), _in_float32(cells), examples.same_cell.to(device))

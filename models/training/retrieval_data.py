@@ -11,6 +11,8 @@ from scipy.spatial import cKDTree
 from torch import Tensor
 
 from models.citymap.hints import NUM_HINTS, STRATEGIES, choose_hints
+from models.citymap.point_sample import PointFrame, PointSampling
+from models.citymap.points import Ints
 from models.citymap.queries import PositionStatements
 from models.citymap.templates import TEMPLATES, render_hint
 from models.citymap.types import DIRECTIONS, Hint
@@ -136,6 +138,7 @@ class TrainingSet:
         pairs = np.unique(np.concatenate([coloured, plain]), axis=0)
         self.vocabulary = HintVocabulary(encoder, tuple(names.tolist()), statements.words, pairs)
         self.label_embeddings = encoder.embed(self.features.labels)
+        self.point_frame: PointFrame | None = None  # of the points that are drawn in each step; None draws none
 
     def __len__(self) -> int:
         return len(self.usable)
@@ -158,11 +161,16 @@ class TrainingSet:
         drawn = self.draw_hints(positions, symmetry, rng)
         best = self.best[positions]
         return Batch(
-            cells=reflect_cells(self.features.batch(best), torch.from_numpy(SYMMETRIES[symmetry])),
+            cells=self.draw_cells(best, symmetry, rng),
             sentences=torch.from_numpy(drawn.sentences),
             hint_mask=torch.from_numpy(drawn.mask),
             cell=torch.from_numpy(best.astype(np.int64)),
         )
+
+    def draw_cells(self, rows: Ints, symmetry: Ints, rng: np.random.Generator) -> CellBatch:
+        """Return some cells, each turned by one of SYMMETRIES, with points drawn anew if `point_frame` is set."""
+        sampling = None if self.point_frame is None else PointSampling(self.point_frame, rng)
+        return reflect_cells(self.features.batch(rows, sampling), torch.from_numpy(SYMMETRIES[symmetry]))
 
     def draw_hints(
         self, positions: npt.NDArray[np.intp], symmetry: npt.NDArray[Any], rng: np.random.Generator
@@ -208,9 +216,14 @@ def replace_hints(
 
 
 def reflect_cells(batch: CellBatch, matrix: Tensor) -> CellBatch:
-    """Apply symmetries of the compass [B, 2, 2], on (east, north), to cells; their point features stay the same."""
+    """Apply symmetries of the compass [B, 2, 2], on (east, north), to cells; point features already computed stay."""
     geometry = batch.geometry.clone()
     for columns in (slice(0, 2), slice(3, 5), slice(6, 8)):  # centre, closest point, direction to it
         geometry[..., columns] = torch.einsum("bij,bnj->bni", matrix, geometry[..., columns])
     geometry[..., 8:10] = torch.einsum("bij,bnj->bni", matrix.abs(), geometry[..., 8:10])  # sizes stay positive
-    return replace(batch, geometry=geometry)
+    points = batch.points
+    if points is not None:
+        each = matrix.repeat_interleave(batch.mask.sum(dim=1), dim=0)  # [R, 2, 2]
+        turned = torch.einsum("rij,rpj->rpi", each, points[..., :2])
+        points = torch.cat([turned, points[..., 2:]], dim=-1)
+    return replace(batch, geometry=geometry, points=points)

@@ -11,6 +11,7 @@ from pydantic.fields import FieldInfo
 from models.errors import TrainingError
 from models.paper.checkpoint import METHODS
 from models.paper.fine.checkpoint import FINE_METHODS
+from models.paper.point_encoder import PointArchitecture
 from models.posterior.model import PosteriorConfig, PosteriorModel
 from models.training.engine.loop import LoopConfig
 from models.training.fine_data import CloningMode
@@ -18,9 +19,11 @@ from models.training.retrieval_data import WordingMode
 
 
 class PointsConfig(BaseModel):
-    """The model settings of the point encoder, which has none."""
+    """The model settings of the point encoder."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
+
+    point_encoder: PointArchitecture = "small"
 
 
 CONFIG_TYPES: dict[str, type[BaseModel]] = {

@@ -18,15 +18,21 @@ from models.training.metrics import RETRIEVAL_KS, retrieval_recall
 
 
 class Validation:
-    """Validation queries of a gallery; the point encoder of the retriever must not change."""
+    """Validation queries of a gallery; a frozen point encoder must not change."""
 
     def __init__(self, gallery: Gallery, queries: Queries, retriever: Retriever) -> None:
-        self.features = retriever.with_point_features(CellFeatures.from_cells(gallery.cells, np.array(gallery.labels)))
+        self.features = CellFeatures.from_cells(gallery.cells, np.array(gallery.labels))
+        if retriever.config.points_frozen:
+            self.features = retriever.with_point_features(self.features)
         self.descriptions, self.truth = queries.sentences, queries.truth
 
     def scores(self, retriever: Retriever) -> npt.NDArray[np.float32]:
         """Return the scores [Q, N] of all cells."""
-        return retriever.combine(EncodedGallery(retriever, self.features).level_scores(self.descriptions))
+        return retriever.combine(self.encode(retriever).level_scores(self.descriptions))
+
+    def encode(self, retriever: Retriever) -> "EncodedGallery":
+        """Return the vectors of the gallery."""
+        return EncodedGallery(retriever, retriever.validation_features(self.features))
 
     def recall(self, retriever: Retriever) -> dict[int, float]:
         """Return the retrieval recall@k."""
@@ -98,7 +104,7 @@ def fit_weights(scored: Sequence[ScoredQueries]) -> tuple[tuple[float, ...], flo
 
 
 def _score_queries(retriever: Retriever, validation: Validation, rng: np.random.Generator) -> list[ScoredQueries]:
-    gallery = EncodedGallery(retriever, validation.features)
+    gallery = validation.encode(retriever)
     max_hints = min(len(hints) for hints in validation.descriptions)
     rows = np.arange(0, len(validation.truth), max(1, len(validation.truth) // CALIBRATION_QUERIES_PER_SOURCE))
     scored: list[ScoredQueries] = []

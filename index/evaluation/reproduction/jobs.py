@@ -78,7 +78,7 @@ class ReproductionJob:
         facts = [_RESULT_FORMAT, run.method, *settings, pick_device(training.device).type]
         facts += _encoder_files(getattr(model, "text_encoder", DEFAULT_TEXT_ENCODER))
         if run.needs_points:
-            facts.append(ReproductionJob.build(TrainingRun(POINTS), POINTS_SEED, data, out, scale).key)
+            facts.append(ReproductionJob.build(run.point_run, POINTS_SEED, data, out, scale).key)
         key = hashlib.sha256(json.dumps([*facts, fingerprint(data), scale.growth_radii_m]).encode()).hexdigest()
         return cls(run, seed, data, out, scale, key)
 
@@ -92,7 +92,7 @@ class ReproductionJob:
         """Return the training of its point encoder, if it needs one; all seeds share it, as in the papers."""
         if not self.run.needs_points:
             return None
-        return ReproductionJob.build(TrainingRun(POINTS), POINTS_SEED, self.data, self.out, self.scale)
+        return ReproductionJob.build(self.run.point_run, POINTS_SEED, self.data, self.out, self.scale)
 
     def settings(self) -> tuple[Any, Any]:
         """Return the settings, with the path of the point encoder."""
@@ -150,9 +150,8 @@ def train_and_measure(job: ReproductionJob, gpu: int | None) -> None:
 
     measured: dict[str, Any]
     if job.run.method == POINTS:
-        measured = {
-            "validation": train_points([load_training_cells(job.data, _TRAINING_SPLITS)], weights, config, *where)
-        }
+        cells = [load_training_cells(job.data, _TRAINING_SPLITS)]
+        measured = {"validation": train_points(cells, weights, config, *where, architecture=model.point_encoder)}
     elif job.run.method in FINE_METHODS:
         train_fine(load, weights, job.run.method, model, config, *where)
         measured = {"validation": _training_record(weights)["sources"][0]["validation"]}

@@ -15,7 +15,7 @@ from models.citymap.cells import PartTable
 from models.citymap.geometry.pieces import PieceTable
 from models.citymap.geometry.solids import THING, Shape, Solid, crown_reach_m, sample_solid
 from models.citymap.geometry.tiling import TILE_M, TILE_SLACK_M, Geometries
-from models.citymap.point_sample import sample_points, stack_samples
+from models.citymap.point_sample import FIXED_SAMPLING, PointSampling, sample_points, stack_samples
 from models.citymap.points import Ints, ranges
 from models.citymap.types import CutRules, Floats
 from models.processes import map_forked
@@ -195,14 +195,21 @@ def _cut_chunk(table: PieceTable, whole: InstanceTotals, rules: CutRules, min_pa
 
 
 def sample_pieces(
-    table: PieceTable, instance_rgb: Floats, shapes: Sequence[str], centers_m: Floats, rules: CutRules
+    table: PieceTable,
+    instance_rgb: Floats,
+    shapes: Sequence[str],
+    centers_m: Floats,
+    rules: CutRules,
+    sampling: PointSampling = FIXED_SAMPLING,
 ) -> Floats:
     """Return sampled points [R, 256, 6] of the parts in cubes around centres [N, 3], in order of `PartTable`."""
     grouped = _PartGroups.cut(table, InstanceTotals.from_pieces(table), rules, centers_m.astype(np.float64))
     return stack_samples(
         [
-            sample_points(xyz, np.broadcast_to(instance_rgb[instance], xyz.shape))
-            for _, instance, xyz in _sample_parts(table, shapes, grouped)
+            sample_points(
+                xyz, np.broadcast_to(instance_rgb[instance], xyz.shape), sampling, centers_m[cube], rules.cell_size_m
+            )
+            for cube, instance, xyz in _sample_parts(table, shapes, grouped)
         ]
     )
 

@@ -3,16 +3,16 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, ClassVar, Literal, TypeVar
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 import numpy.typing as npt
 import torch
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, field_validator
 from torch import Tensor, nn
 
 from models.language.recent_features import RecentFeatures
-from models.language.text_encoder import DEFAULT_TEXT_ENCODER, TextEncoder, TextEncoderModel, TokenFeatures
+from models.language.text_encoder import DEFAULT_TEXT_ENCODER, TextEncoder, TokenFeatures
 from models.paper.instance_encoder import (
     CLOSEST_DISTANCE_COLUMN,
     DEFAULT_INPUTS,
@@ -24,13 +24,13 @@ from models.paper.instance_encoder import (
     geometry_columns,
 )
 from models.paper.layers import HintEncoder
-from models.paper.point_encoder import PointEncoder
+from models.paper.point_encoder import PointArchitecture
+from models.paper.point_model import PointModel, build_point_encoder, check_point_option
 
 HINT_CACHE_SIZE = 20_000  # sentences; 10 MB at D = 128
 PAIRS_PER_BATCH = 1024  # pairs of description and cell; bounds the memory of a prediction
 Offsets = npt.NDArray[np.float64]
 FineMethod = Literal["regressor", "matching"]
-Cells = TypeVar("Cells", CellFeatures, UncutCells)
 
 
 class FineConfig(BaseModel):
@@ -42,6 +42,11 @@ class FineConfig(BaseModel):
     width: int = Field(default=128, ge=1)  # D
     # features of an instance, see `InstanceEncoder`; "points" adds a `PointEncoder`
     inputs: tuple[Input, ...] = Field(default=DEFAULT_INPUTS, min_length=1)
+    # the point encoder, see `PointEncoder`: ours is "small", that of the papers is "official"
+    point_encoder: PointArchitecture = "small"
+    # whether the point encoder keeps the weights of its training as a classifier; False trains it further, as the
+    # papers do, on points drawn anew in each step
+    points_frozen: bool = True
     # whether a linear map of the geometry is added to the features of the instances, because their normalisation blurs
     # coordinates; False in the papers
     plain: bool = True
@@ -53,6 +58,8 @@ class FineConfig(BaseModel):
     dropout: float = Field(default=0.1, ge=0, lt=1)  # of the attention layers in training
     # standard deviation of a coordinate in metres, given the right cell; measured on validation data
     error_m: float | None = None
+
+    _check_point_option = field_validator("point_encoder", "points_frozen")(check_point_option)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -89,7 +96,7 @@ class FineTargets:
     match: Tensor
 
 
-class FineModel(TextEncoderModel):
+class FineModel(PointModel):
     """A fine stage; subclasses define how a position follows from hints and instances."""
 
     method: ClassVar[FineMethod]
@@ -102,7 +109,7 @@ class FineModel(TextEncoderModel):
         self._hint_cache = RecentFeatures(self._read_sentences, HINT_CACHE_SIZE)
         self._label_cache: dict[tuple[str, ...], Tensor] = {}
         self.hint_encoder = HintEncoder(text_encoder.width, config.width, config.dropout)
-        self.points = PointEncoder().requires_grad_(False) if "points" in config.inputs else None
+        self.points = build_point_encoder(config)
         self.instance_encoder = InstanceEncoder(text_encoder.width, config.width, config.inputs)
         self.columns = geometry_columns(config.inputs)
         self.geometry = nn.Linear(len(self.columns), config.width) if config.plain else None
@@ -142,10 +149,6 @@ class FineModel(TextEncoderModel):
         """Return features [S, D] of hint sentences, each encoded alone."""
         features: Tensor = self.hint_encoder(tokens.values.to(self.device), tokens.mask.to(self.device))
         return features
-
-    def with_point_features(self, cells: Cells) -> Cells:
-        """Return cells with the features of the model's point encoder, or unchanged if it has none."""
-        return cells.with_point_features(self.points)
 
     def embed_instances(self, cells: CellBatch, label_embeddings: Tensor) -> InstanceFeatures:
         """Encode the instances of padded cells, at most `max_instances` per cell; label_embeddings is [L, W]."""

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from pydantic import BaseModel, ConfigDict
 
 from models.citymap.cells import CellTable, PartTable
-from models.citymap.point_sample import sample_points, stack_samples
+from models.citymap.point_sample import FIXED_SAMPLING, PointSampling, sample_points, stack_samples
 from models.citymap.points import Ints, ranges
 from models.citymap.types import DIRECTIONS, Floats, Hint
 from models.errors import DataError
@@ -177,10 +177,11 @@ class PoseStore:
         """Return the points [P, 3], cell units, and colours [P, 3], 0..1, of one instance (float32 or float64)."""
         return self._points(int(self._object_rows[row]))
 
-    def _sample(self, cells: Ints) -> Floats:
+    def _sample(self, cells: Ints, sampling: PointSampling = FIXED_SAMPLING) -> Floats:
         rows = self.cell_rows[cells]
         objects = ranges(self._cell_starts[rows], self._cell_starts[rows + 1])
-        return stack_samples([sample_points(*self._points(row)) for row in objects.tolist()])
+        # Points are in cell units, 0..1 inside.
+        return stack_samples([sample_points(*self._points(row), sampling, 0.5) for row in objects.tolist()])
 
     def _points(self, row: int) -> tuple[Floats, Floats]:
         c = self.columns

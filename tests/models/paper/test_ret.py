@@ -6,7 +6,8 @@ import pytest
 import torch
 
 from models.paper.levels import Levels
-from models.paper.ret import NUM_HEADS, HintRelation, InstanceRelation, RelationLayer, Ret, RetConfig
+from models.paper.relation_attention import NUM_HEADS, InstanceRelation
+from models.paper.ret import HintRelation, RelationLayer, Ret, RetConfig
 from models.paper.text2pos import pairwise_ranking_loss
 
 WIDTH = 8
