@@ -19,6 +19,7 @@ from models.paper import point_encoder
 from models.paper.checkpoint import METHODS, load_retriever
 from models.paper.fine.checkpoint import FINE_METHODS, load_fine
 from models.paper.instance_encoder import DEFAULT_INPUTS, PAPER_INPUTS, Input
+from models.paper.point_encoder import PointLayers
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior
 from models.sources.source import open_source
 from models.training import fit_fine, fit_points, fit_retriever, validation
@@ -40,7 +41,10 @@ CONFIG = TrainingConfig(steps=1, batch_size=8, spacing_m=30.0)
 SMALL: dict[Any, dict[str, Any]] = {
     fit_points: {"load_settings": lambda *_: (None, CONFIG), "TRAINING_CELLS_PER_SOURCE": 10,
         "VALIDATION_CELLS_PER_SOURCE": 10},
-    point_encoder: {"_LEVELS": ((8, 0.2, 4, (32, 64)), (4, 0.4, 4, (64, 128)))},
+    point_encoder: {"ARCHITECTURES": {
+        "small": PointLayers(((8, 0.2, 4, (32, 64)), (4, 0.4, 4, (64, 128))), (128, 256), (), "part"),
+        "official": PointLayers(((8, 0.2, 4, (32,)), (4, 0.4, 4, (32,))), (32,), (256,), "cell"),
+    }},
     validation: {"CALIBRATION_QUERIES": 8},
     fit_posterior: {
         "READER_TEXTS": 33, "READER_VALIDATION_TEXTS": 9, "FIT_TEXTS_PER_SITE": 2, "CALIBRATION_TEXTS_PER_SITE": 2,
@@ -68,6 +72,13 @@ def fine(sources: Any, method: str, inputs: tuple[Input, ...], out: Path) -> Non
     for resume in (False, True) if inputs == PAPER_INPUTS else (False,):
         fit_fine.train_fine(partial(load, sources), out, method, config, CONFIG, out / "run", resume)
     assert load_fine(out).error_m
+
+
+def trained_points(sources: Any, out: Path) -> None:
+    """A point encoder that is trained with the retriever."""
+    options = {"inputs": PAPER_INPUTS, "point_encoder": "official", "points_frozen": False, "point_relations": True}
+    config = METHODS["mncl"].config_type(width=32, **options)
+    fit_retriever.train_retriever(partial(load, sources), out, METHODS["mncl"], config, CONFIG)
 
 
 def shared_points(sources: Any, out: Path) -> None:
@@ -170,6 +181,7 @@ def main(osm_file: Path, out: Path) -> None:
     for name, (method, inputs) in MODELS.items():
         train = retriever if method in METHODS else fine
         cases[name] = partial(train, sources, method, inputs, out / name)
+    cases["trained-points"] = partial(trained_points, sources, out / "trained-points")
     cases["points"] = partial(shared_points, sources, out / "points")
     cases["posterior"] = partial(posterior, sources, out / "posterior")
     (out / "report.json").write_text(json.dumps({name: tried(run) for name, run in cases.items()}))

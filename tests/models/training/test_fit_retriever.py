@@ -1,5 +1,6 @@
 import itertools
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ from safetensors.torch import load_file
 
 from index.answering.ranking import Ranker
 from models.citymap.hints import direction_index
+from models.citymap.point_sample import PointSampling
 from models.citymap.types import DIRECTIONS
 from models.errors import DataError, WeightsError
 from models.paper import point_encoder
@@ -190,8 +192,11 @@ def strip(strip_file):
 
 @pytest.fixture
 def coarse(monkeypatch):
-    """A point encoder that looks at few points."""
-    monkeypatch.setattr(point_encoder, "_LEVELS", ((16, 0.2, 8, (32, 64)), (4, 0.4, 8, (64, 128))))
+    """Point encoders that look at few points."""
+    levels = ((16, 0.2, 8, (32, 64)), (4, 0.4, 8, (64, 128)))
+    for name, layers in point_encoder.ARCHITECTURES.items():
+        few = replace(layers, levels=levels, pooled=(128, 256), head=(256,) if layers.head else ())
+        monkeypatch.setitem(point_encoder.ARCHITECTURES, name, few)
 
 
 @pytest.mark.slow
@@ -247,6 +252,82 @@ def test_a_point_encoder_made_before_serves_retrievers_and_fine_stages(strip, co
     nowhere = config.model_copy(update={"points": tmp_path / "nowhere"})
     with pytest.raises(WeightsError, match="--method points"):
         train_retriever(load, tmp_path / "w", Text2Loc, Text2LocConfig(width=32, inputs=PAPER_INPUTS), nowhere)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("kind", "frozen"), itertools.product(["small", "official"], [True, False]))
+def test_a_point_encoder_is_trained_further_unless_it_is_frozen(strip, coarse, tmp_path, kind, frozen) -> None:
+    *regions, whole = strip
+    config = TrainingConfig(steps=4, batch_size=8, spacing_m=30.0, validate_every=2)
+    train_points([TrainingCells.from_sources(*regions)], tmp_path / "p", config, architecture=kind)
+    config = config.model_copy(update={"points": tmp_path / "p"})
+    batches = []
+
+    def load(encoder, rng):
+        data = TrainingData.from_sources(*regions, encoder, config, rng)
+        draw = data.training.batch
+        data.training.batch = lambda *given: batches.append(draw(*given)) or batches[-1]
+        return [data]
+
+    options = {"width": 32, "inputs": PAPER_INPUTS, "point_encoder": kind, "points_frozen": frozen}
+    train_retriever(load, tmp_path / "w", Mncl, MnclConfig(**options), config)
+    train_fine(load, tmp_path / "fine", "matching", MatchingConfig(**options, plain=False), config)
+    before = load_file(tmp_path / "p" / "model.safetensors")
+    for loaded in (load_retriever(tmp_path / "w"), load_fine(tmp_path / "fine")):
+        assert (loaded.config.point_encoder, loaded.config.points_frozen) == (kind, frozen)
+        for name, tensor in loaded.points.state_dict().items():
+            assert torch.allclose(tensor, before[name], atol=1e-3 * (frozen or 1e-6)) == frozen, name
+    assert len(batches) == config.steps
+    drawn = [batch.cells.points for batch in batches]
+    assert all((points is None) == (frozen and kind == "small") for points in drawn)
+    retriever, labels = load_retriever(tmp_path / "w"), np.array(whole.data.gallery.labels)
+    few = whole.data.cells.take(np.arange(20))
+    store = Ranker.from_cells(retriever, few, labels).store
+    features = CellFeatures.from_cells(few, labels)
+    sampling = PointSampling(retriever.points.frame)
+    with torch.inference_mode():
+        batch = retriever.encode_points(features.batch(np.array([7]), sampling))
+        alone = retriever.embed_cells(batch, retriever.text_encoder.embed(features.labels)).global_vectors
+    assert np.allclose(store.vectors(np.array([7])), alone, atol=1e-4), "an index has the trained encoder's features"
+    other = {"small": "official", "official": "small"}[kind]
+    with pytest.raises(WeightsError, match=f"kind '{kind}', but model.point_encoder is '{other}'"):
+        train_retriever(load, tmp_path / "x", Mncl, MnclConfig(**options | {"point_encoder": other}), config)
+    if kind == "small" and frozen:  # the configuration of a checkpoint from before these options
+        record = json.loads((tmp_path / "w" / "config.json").read_text())
+        for name in ("point_encoder", "points_frozen", "point_relations"):
+            del record["retriever"][name]
+        (tmp_path / "w" / "config.json").write_text(json.dumps(record))
+        assert load_retriever(tmp_path / "w").config == retriever.config
+
+
+def test_gradients_reach_the_point_encoder_through_points_drawn_anew(region, text_encoder, coarse, monkeypatch) -> None:
+    torch.manual_seed(0)
+    options = {"inputs": PAPER_INPUTS, "point_encoder": "official", "points_frozen": False, "point_relations": True}
+    model = Mncl(text_encoder, MnclConfig(width=32, **options)).eval()
+    model.points.requires_grad_(True)
+    monkeypatch.setattr(region, "point_frame", model.points.frame)
+    positions = region.usable[:4]
+    drawn = [region.batch(positions, np.random.default_rng(seed)) for seed in (0, 1)]
+    assert not torch.equal(drawn[0].cells.points, drawn[1].cells.points)
+    cells = model.encode_points(drawn[0].cells)
+    model.embed_cells(cells, region.label_embeddings).global_vectors.square().mean(dim=1).sum().backward()
+    assert all(p.grad is not None for p in model.points.parameters())
+    assert sum(float(p.grad.abs().sum()) for p in model.points.parameters()) > 0
+
+
+def test_points_turn_with_their_cell(region) -> None:
+    rows = np.array([1, 0])
+    batch = region.features.batch(rows, PointSampling("cell"))
+    turned = reflect_cells(batch, torch.from_numpy(SYMMETRIES[[4, 1]]))  # east and north change places; north is south
+    row = 0
+    for cell, size in enumerate(batch.mask.sum(dim=1).tolist()):
+        for _ in range(size):
+            x, y = batch.points[row, :, 0], batch.points[row, :, 1]
+            expected = torch.stack([y, x] if cell == 0 else [x, -y], dim=-1)
+            assert torch.equal(turned.points[row, :, :2], expected)
+            row += 1
+    assert row == len(turned.points)
+    assert torch.equal(turned.points[..., 2:], batch.points[..., 2:]), "height and colour stay"
 
 
 @pytest.mark.slow

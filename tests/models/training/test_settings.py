@@ -27,6 +27,8 @@ def test_settings_are_changed_one_by_one() -> None:
     assert (training.steps, training.patience, training.learning_rate) == (600, 3, 1e-4)
     assert training.schedule == "step"
     assert load_settings("mncl", ["training.patience=none"])[1].patience is None
+    model, _ = load_settings("regressor", ["model.points_frozen=false", "model.inputs=points"])
+    assert not model.points_frozen
 
 
 @pytest.mark.parametrize(
@@ -50,6 +52,10 @@ def test_settings_are_changed_one_by_one() -> None:
         ("model.dropout=1", "less than 1"),
         ("model.cell_layers=-1", "greater than or equal to 0"),
         ("model.width=30", "multiple of 4"),
+        ("model.point_encoder=large", "'small' or 'official'"),
+        ("model.point_encoder=official", "add points to model.inputs"),
+        ("model.points_frozen=false", "add points to model.inputs"),
+        ("model.point_relations=true", "add points to model.inputs"),
     ],
 )
 def test_what_is_wrong_with_a_setting_is_said(change, message) -> None:

@@ -50,7 +50,8 @@ def here(work, tasks, workers):
 def small(monkeypatch):
     monkeypatch.setattr(module, "_run_in_processes", here)
     monkeypatch.setattr(run_dir, "_curves", lambda *_: b"")  # test_loop.py has them drawn
-    monkeypatch.setattr(point_encoder, "_LEVELS", ((8, 0.2, 4, (32, 64)), (4, 0.4, 4, (64, 128))))
+    few = replace(point_encoder.ARCHITECTURES["small"], levels=((8, 0.2, 4, (32, 64)), (4, 0.4, 4, (64, 128))))
+    monkeypatch.setitem(point_encoder.ARCHITECTURES, "small", few)
     threads = torch.get_num_threads()
     yield
     torch.set_num_threads(threads)
