@@ -255,7 +255,7 @@ def test_a_point_encoder_made_before_serves_retrievers_and_fine_stages(strip, co
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("kind", "frozen"), itertools.product(["small", "official"], [True, False]))
+@pytest.mark.parametrize(("kind", "frozen"), list(itertools.product(["small", "official"], [True, False])))
 def test_a_point_encoder_is_trained_further_unless_it_is_frozen(strip, coarse, tmp_path, kind, frozen) -> None:
     *regions, whole = strip
     config = TrainingConfig(steps=4, batch_size=8, spacing_m=30.0, validate_every=2)
