@@ -92,7 +92,7 @@ def reproduce(
     reranked = [
         (
             ReproductionJob.build(run, seed, data, out, scale),
-            fine and ReproductionJob.build(fine, seed, data, out, scale),
+            ReproductionJob.build(fine, seed, data, out, scale) if fine else None,
         )
         for n, seed in enumerate(seeds)
         for run, fine in reranked_pairs(experiments, n)

@@ -40,7 +40,7 @@ def test_evaluate_ranks_again(run, strip_file) -> None:
     plain, again = run(*args), run(*args, "--rerank", "parc")
     assert again.exit_code == 0, again.output
     # The model is untrained, so there is much to gain.
-    recalls = [float(re.search(r"model\s+\S\s+([\d.]+)", result.output)[1]) for result in (plain, again)]
+    recalls = [float(re.findall(r"model\s+\S\s+([\d.]+)", result.output)[0]) for result in (plain, again)]
     assert recalls[1] > recalls[0]
 
 
