@@ -1,7 +1,7 @@
 """Cut cubes out of a map of pieces (docs/formats.md, rules 4 and 5), by geometry alone."""
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, cast
 
@@ -38,9 +38,7 @@ class CubeContents:
     def cut(cls, table: PieceTable, centers_m: Floats, size_m: float) -> "CubeContents":
         """Cut cubes of a size around centres [N, 2 or more]."""
         low, high = centers_m[:, :2] - size_m / 2, centers_m[:, :2] + size_m / 2
-        first = np.floor((low + TILE_SLACK_M) / TILE_M + 0.5).astype(np.int64)
-        last = np.floor((high - TILE_SLACK_M) / TILE_M + 0.5).astype(np.int64)
-        cube, piece = table.in_tiles(first, last)
+        cube, piece = _pieces_in_cubes(table, centers_m, size_m)
         geometry, bounds, point_count = (
             table.geometry(piece),
             table.bounds_m[piece],
@@ -55,9 +53,20 @@ class CubeContents:
             before = table.geometry(piece[rows])
             point_count[rows] *= _extent(geometry[rows]) / _extent(before)
             bounds[rows] = shapely.bounds(geometry[rows])
-        below = np.full(len(centers_m), np.inf) if centers_m.shape[1] < 3 else centers_m[:, 2] + size_m / 2
-        is_inside = ~shapely.is_empty(geometry) & (table.heights_m[piece, 0] <= below[cube])
+        is_inside = ~shapely.is_empty(geometry)
         return cls(cube[is_inside], piece[is_inside], geometry[is_inside], bounds[is_inside], point_count[is_inside])
+
+
+def _pieces_in_cubes(table: PieceTable, centers_m: Floats, size_m: float) -> tuple[Ints, Ints]:
+    """Return cube [P], ascending, and piece [P] in the tiles of cubes around centres [N, 2 or more], not above them."""
+    low, high = centers_m[:, :2] - size_m / 2, centers_m[:, :2] + size_m / 2
+    first = np.floor((low + TILE_SLACK_M) / TILE_M + 0.5).astype(np.int64)
+    last = np.floor((high - TILE_SLACK_M) / TILE_M + 0.5).astype(np.int64)
+    cube, piece = table.in_tiles(first, last)
+    if centers_m.shape[1] < 3:
+        return cube, piece
+    is_below = table.heights_m[piece, 0] <= centers_m[cube, 2] + size_m / 2
+    return cube[is_below], piece[is_below]
 
 
 def _clip(geometry: Geometries, rows: Ints, cube: Ints, low: Floats, high: Floats) -> None:
@@ -98,7 +107,8 @@ def cut_pieces(
     Colours [I, 3] of instances are NaN where unknown.
     """
     chunks = [centers_m[i : i + CUBES_PER_TASK] for i in range(0, len(centers_m), CUBES_PER_TASK)] or [centers_m]
-    work = partial(_cut_chunk, table, InstanceTotals.from_pieces(table), rules, min_parts)
+    cut = _cut_rich_cubes if min_parts else _cut_chunk
+    work = partial(cut, table, InstanceTotals.from_pieces(table), rules, min_parts)
     done = 0
 
     def columns() -> Iterator[dict[str, npt.NDArray[Any]]]:
@@ -148,17 +158,37 @@ class _PartGroups:
     def cut(cls, table: PieceTable, whole: InstanceTotals, rules: CutRules, centers: Floats) -> "_PartGroups":
         """Cut the cubes around centres."""
         cubes = CubeContents.cut(table, centers, rules.cell_size_m)
-        is_thing = table.form[cubes.piece] == THING
-        instance = table.instance[cubes.piece].astype(np.int64)
-        hanging = connected_pieces(table, cubes.cube, cubes.piece, ~is_thing)
-        group = np.where(is_thing, -1 - cubes.cube * len(whole.point_count) - instance, hanging)
-        order = np.lexsort((group, instance, ~is_thing, cubes.cube))
-        starts = np.flatnonzero(np.diff(group[order], prepend=group[order[:1]] - 1))
-        point_count = np.add.reduceat(cubes.point_count[order], starts) if len(starts) else np.zeros(0)
-        first = order[starts]
-        share = rules.thing_share * whole.point_count[instance[first]]
-        is_kept = point_count >= np.where(is_thing[first], share, rules.min_part_points)
-        return cls(cubes, order, starts, is_kept)
+        return cls(cubes, *_group(table, whole, rules, cubes.cube, cubes.piece, cubes.point_count))
+
+
+def _group(
+    table: PieceTable, whole: InstanceTotals, rules: CutRules, cube: Ints, piece: Ints, point_count: Floats
+) -> tuple[Ints, Ints, npt.NDArray[np.bool_]]:
+    """Return `order`, `starts` and `is_kept` of `_PartGroups` for pieces [P] in cubes and their points there."""
+    is_thing = table.form[piece] == THING
+    instance = table.instance[piece].astype(np.int64)
+    hanging = connected_pieces(table, cube, piece, ~is_thing)
+    group = np.where(is_thing, -1 - cube * len(whole.point_count) - instance, hanging)
+    order = np.lexsort((group, instance, ~is_thing, cube))
+    starts = np.flatnonzero(np.diff(group[order], prepend=group[order[:1]] - 1))
+    points_of_group = np.add.reduceat(point_count[order], starts) if len(starts) else np.zeros(0)
+    first = order[starts]
+    share = rules.thing_share * whole.point_count[instance[first]]
+    return order, starts, points_of_group >= np.where(is_thing[first], share, rules.min_part_points)
+
+
+def _cut_rich_cubes(
+    table: PieceTable, whole: InstanceTotals, rules: CutRules, min_parts: int, centers: Floats
+) -> PartTable:
+    """Cut the cubes that may have enough parts, as `_cut_chunk`; building geometry is what takes time."""
+    cube, piece = _pieces_in_cubes(table, centers, rules.cell_size_m)
+    point_count = table.point_count[piece].astype(np.float64)  # at least those in the cube
+    order, starts, is_kept = _group(table, whole, rules, cube, piece, point_count)
+    rich = np.flatnonzero(np.bincount(cube[order[starts[is_kept]]], minlength=len(centers)) >= min_parts)
+    parts = _cut_chunk(table, whole, rules, min_parts, centers[rich])
+    sizes = np.zeros(len(centers), np.int64)
+    sizes[rich] = np.diff(parts.starts)
+    return replace(parts, starts=np.concatenate([[0], np.cumsum(sizes)]))
 
 
 def _cut_chunk(table: PieceTable, whole: InstanceTotals, rules: CutRules, min_parts: int, centers: Floats) -> PartTable:

@@ -11,6 +11,7 @@ from models.citymap.geometry.segments import Steps, snap, to_segments
 from models.citymap.geometry.solids import FORMS, Form, Solid
 from models.citymap.geometry.tiling import (
     ALL_TILES,
+    BlockSet,
     Geometries,
     TileSpan,
     clip_to_tiles,
@@ -102,27 +103,30 @@ class _SolidArrays:
         )
 
 
-def cut_band(solids: Sequence[Solid], band: TileSpan) -> PieceRows:
+def cut_band(solids: Sequence[Solid], band: TileSpan, blocks: BlockSet | None = None) -> PieceRows:
     """Cut solids into pieces in some columns of tiles; return them in order of tile, then instance.
 
     The solids include all that reach into these columns. The area with the lowest number covers others; solids of one
-    instance of areas or lines have the same heights.
+    instance of areas or lines have the same heights. With `blocks`, only pieces in these are returned, and all pieces
+    of things with a piece there.
     """
     area, line, thing = (_SolidArrays.from_solids(solids, form) for form in FORMS)
-    rows = PieceRows.concatenate([_cut_stuff(area, band), _cut_stuff(line, band), _cut_things(thing, band)])
+    rows = PieceRows.concatenate(
+        [_cut_stuff(area, band, blocks), _cut_stuff(line, band, blocks), _cut_things(thing, band, blocks)]
+    )
     return rows.take(np.lexsort((rows.instance, rows.row, rows.column)))
 
 
-def _cut_stuff(solids: _SolidArrays, band: TileSpan) -> PieceRows:
+def _cut_stuff(solids: _SolidArrays, band: TileSpan, blocks: BlockSet | None) -> PieceRows:
     """Return the pieces of lines or of the uncovered parts of areas: one for each connected group in a tile."""
-    column, row, solid, geometry = _join_in_tiles(solids, band)
+    column, row, solid, geometry = _join_in_tiles(solids, band, blocks)
     is_area = FORMS[solids.form] == "area"
     of_piece, pieces = split_connected(geometry, 2 if is_area else 1)
     size = shapely.area(pieces) if is_area else shapely.length(pieces)
     return solids.build_rows(column[of_piece], row[of_piece], solid[of_piece], pieces, size)
 
 
-def _cut_things(solids: _SolidArrays, band: TileSpan) -> PieceRows:
+def _cut_things(solids: _SolidArrays, band: TileSpan, blocks: BlockSet | None) -> PieceRows:
     """Return the pieces of things, which are kept whole: each tile's piece has its share of the points."""
     cut = clip_to_tiles(solids.geometry, ALL_TILES)
     geometry = snap(cut.geometry)
@@ -132,17 +136,19 @@ def _cut_things(solids: _SolidArrays, band: TileSpan) -> PieceRows:
     size = np.where(length > 0, length, 1.0)  # 1 of points
     share = size / np.bincount(solid, size, len(solids.geometry))[solid]
     column, row = cut.column[is_left], cut.row[is_left]
-    is_in_band = (column >= band[0]) & (column < band[1])
-    return solids.build_rows(
-        column[is_in_band], row[is_in_band], solid[is_in_band], geometry[is_in_band], share[is_in_band]
-    )
+    chosen = (column >= band[0]) & (column < band[1])
+    if blocks is not None:
+        chosen &= np.isin(solid, solid[blocks.contains(column, row)])
+    return solids.build_rows(column[chosen], row[chosen], solid[chosen], geometry[chosen], share[chosen])
 
 
-def _join_in_tiles(solids: _SolidArrays, band: TileSpan) -> tuple[Ints, Ints, Ints, Geometries]:
+def _join_in_tiles(
+    solids: _SolidArrays, band: TileSpan, blocks: BlockSet | None
+) -> tuple[Ints, Ints, Ints, Geometries]:
     """Return (column, row, a solid, geometry) of each instance in each tile; of areas, the uncovered parts."""
     # Do not touch other geometries: a worker process would copy their memory.
     rows = np.flatnonzero((solids.first < band[1]) & (solids.last >= band[0]))
-    cut = clip_to_tiles(solids.geometry[rows], band)
+    cut = clip_to_tiles(solids.geometry[rows], band, blocks)
     solid = rows[cut.feature]
     order = np.lexsort((solids.instance[solid], cut.row, cut.column))
     column, row, solid, geometry = cut.column[order], cut.row[order], solid[order], cut.geometry[order]

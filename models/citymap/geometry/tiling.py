@@ -1,6 +1,6 @@
 """Cut the features of a map into pieces, a tile at a time: clip, subtract covers, join."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -18,8 +18,45 @@ TileSpan = tuple[int, int]  # first column or row of tiles, and the one after th
 ALL_TILES: Final = (-(2**31), 2**31)
 TILE_M = 10.0  # the spacing of the grid of cells: a tile is the square around a centre
 BEYOND_MAP_M = 1e9  # larger than every coordinate
+BLOCK_TILES: Final = 4  # what a cell and its hints can reach ends in the next block
+MAX_ROW: Final = 1 << 31
+NO_KEY: Final = np.iinfo(np.int64).max
 TILE_SLACK_M = 1e-3  # by which a piece that fills its tile may stand over
 TOUCHING_M = 0.75  # parts this near are connected (rule 4)
+
+
+@dataclass(frozen=True, slots=True)
+class BlockSet:
+    """Square blocks of tiles, `BLOCK_TILES` along an edge."""
+
+    keys: Ints  # [B] ascending, see `block_key`
+
+    @classmethod
+    def concatenate(cls, sets: Sequence["BlockSet"]) -> "BlockSet":
+        """Return the union of several sets."""
+        return cls(np.unique(np.concatenate([np.zeros(0, np.int64), *(each.keys for each in sets)])))
+
+    def with_neighbours(self) -> "BlockSet":
+        """Return the set with the eight blocks around each."""
+        column, row = np.meshgrid(np.arange(-1, 2), np.arange(-1, 2))
+        return BlockSet(np.unique(self.keys[:, None] + block_key(column.ravel(), row.ravel())))
+
+    def contains(self, column: Ints, row: Ints) -> npt.NDArray[np.bool_]:
+        """Return whether each tile [n] is in one of the blocks."""
+        key = block_key(column // BLOCK_TILES, row // BLOCK_TILES)
+        return np.append(self.keys, NO_KEY)[np.searchsorted(self.keys, key)] == key
+
+    def rows(self, columns: TileSpan) -> Ints:
+        """Return the rows of tiles, ascending, in which some columns of tiles have a block."""
+        first, after = columns[0] // BLOCK_TILES, (columns[1] - 1) // BLOCK_TILES + 1
+        begin, end = np.searchsorted(self.keys, block_key(np.array([first, after]), -MAX_ROW))
+        row = np.unique((self.keys[begin:end] + MAX_ROW) % (2 * MAX_ROW) - MAX_ROW)
+        return (row[:, None] * BLOCK_TILES + np.arange(BLOCK_TILES)).ravel()
+
+
+def block_key(column: Ints, row: Ints | int) -> Ints:
+    """Return one integer [n] for each block, ascending from west to east, then south to north."""
+    return column.astype(np.int64) * (2 * MAX_ROW) + row
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -32,12 +69,16 @@ class Clipped:
     geometry: Geometries  # [F] the part in the tile
 
 
-def clip_to_tiles(geometry: Geometries, band: TileSpan) -> Clipped:
-    """Clip geometries [n] to the tiles of some columns."""
-    strips = _cut_along_axis(geometry, np.arange(len(geometry)), 0, band)
+def clip_to_tiles(geometry: Geometries, band: TileSpan, blocks: BlockSet | None = None) -> Clipped:
+    """Clip geometries [n] to the tiles of some columns, of these to the tiles of `blocks` if given."""
+    feature = np.arange(len(geometry))
+    if blocks is not None:
+        geometry, feature = _clip_to_runs(geometry, blocks.rows(band))
+    strips = _cut_along_axis(geometry, feature, 0, band)
     columns: list[tuple[Ints, Ints, Ints, Geometries]] = [(strips[0][:0], strips[0][:0], strips[1][:0], strips[2][:0])]
     for number, begin, end in _runs(strips[0]):
-        row, feature, pieces = _cut_along_axis(strips[2][begin:end], strips[1][begin:end], 1, ALL_TILES)
+        allowed = None if blocks is None else blocks.rows((number, number + 1))
+        row, feature, pieces = _cut_along_axis(strips[2][begin:end], strips[1][begin:end], 1, ALL_TILES, allowed)
         columns.append((np.full(len(row), number), row, feature, pieces))
     return Clipped(*(np.concatenate(column) for column in zip(*columns, strict=True)))
 
@@ -48,14 +89,41 @@ def tile_span(ends_m: Floats) -> tuple[Ints, Ints]:
     return first, last
 
 
-def _cut_along_axis(geometry: Geometries, feature: Ints, axis: int, span: TileSpan) -> tuple[Ints, Ints, Geometries]:
-    """Return (band, feature, piece) of geometries along one axis, in order of band, then geometry."""
+def _clip_to_runs(geometry: Geometries, rows: Ints) -> tuple[Geometries, Ints]:
+    """Clip geometries [n] to runs of consecutive rows of tiles; return the pieces, and the geometry of each.
+
+    A forest of thousands of vertices is clipped once here, instead of for each of its tiles.
+    """
+    low, high = tile_span(shapely.bounds(geometry)[:, [1, 3]])
+    pieces, sources = [geometry[:0]], [low[:0]]
+    first = np.flatnonzero(np.diff(rows, prepend=rows[:1] - 2) > 1)
+    for begin, end in zip(rows[first].tolist(), rows[np.append(first[1:], len(rows)) - 1].tolist(), strict=True):
+        source = np.flatnonzero((low <= end) & (high >= begin))
+        piece, is_cut = geometry[source], (low[source] < begin) | (high[source] > end)
+        south, north = (begin - 0.5) * TILE_M, (end + 0.5) * TILE_M
+        piece[is_cut] = shapely.clip_by_rect(piece[is_cut], -BEYOND_MAP_M, south, BEYOND_MAP_M, north)
+        is_left = ~shapely.is_empty(piece)
+        pieces.append(piece[is_left])
+        sources.append(source[is_left])
+    return np.concatenate(pieces), np.concatenate(sources)
+
+
+def _cut_along_axis(
+    geometry: Geometries, feature: Ints, axis: int, span: TileSpan, allowed: Ints | None = None
+) -> tuple[Ints, Ints, Geometries]:
+    """Return (band, feature, piece) of geometries along one axis, in order of band, then geometry.
+
+    `allowed` are the bands to cut, ascending; None for all.
+    """
     low, high = tile_span(shapely.bounds(geometry)[:, [axis, axis + 2]])
     is_whole = low == high
     low = np.maximum(low, span[0])
     after = np.maximum(np.minimum(high + 1, span[1]), low)
     source = np.repeat(np.arange(len(geometry)), after - low)
     band = ranges(low, after)
+    if allowed is not None:
+        is_allowed = np.isin(band, allowed)
+        source, band = source[is_allowed], band[is_allowed]
     order = np.argsort(band, kind="stable")
     source, band = source[order], band[order]
     pieces = geometry[source]

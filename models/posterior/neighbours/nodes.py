@@ -15,6 +15,9 @@ from models.compiled import compiled
 
 SPACING_M: Final = 1.5  # of the grid
 COLUMNS_PER_SLICE: Final = 32
+LINES_AROUND: Final = np.arange(
+    -int(BEST_CELL_REACH_M // SPACING_M), int(BEST_CELL_REACH_M // SPACING_M) + 2, dtype=np.int32
+)
 
 
 def grid(cells: CellTable) -> tuple[Floats, Ints]:
@@ -31,12 +34,14 @@ def slices(cells: CellTable) -> Iterator[tuple[Ints, Ints]]:
     for s in np.unique(scene):
         rows = np.flatnonzero(scene == s).astype(np.int32)
         centers = cells.center_m[rows, :2]
-        low = np.floor((centers.min(axis=0) - BEST_CELL_REACH_M) / SPACING_M).astype(int)
-        high = np.ceil((centers.max(axis=0) + BEST_CELL_REACH_M) / SPACING_M).astype(int) + 1
-        tree = cKDTree(centers)
-        for first in range(low[0], high[0], COLUMNS_PER_SLICE):
-            columns = np.arange(first, min(first + COLUMNS_PER_SLICE, high[0]), dtype=np.int32)
-            steps = np.stack(np.meshgrid(columns, np.arange(low[1], high[1], dtype=np.int32), indexing="ij"), axis=-1)
+        tree, eastward = cKDTree(centers), centers[np.argsort(centers[:, 0])]
+        low, high = eastward[[0, -1], 0] + np.array([-1, 1]) * BEST_CELL_REACH_M
+        for first in range(int(low // SPACING_M), int(high // SPACING_M) + 2, COLUMNS_PER_SLICE):
+            columns = np.arange(first, first + COLUMNS_PER_SLICE, dtype=np.int32)
+            ends_m = columns[[0, -1]] * SPACING_M + np.array([-1, 1]) * BEST_CELL_REACH_M
+            northing_m = eastward[slice(*np.searchsorted(eastward[:, 0], ends_m)), 1]
+            lines = np.unique((northing_m // SPACING_M).astype(np.int32)[:, None] + LINES_AROUND)
+            steps = np.stack(np.meshgrid(columns, lines, indexing="ij"), axis=-1)
             steps = steps.reshape(-1, 2)
             distance, nearest = tree.query(steps * SPACING_M, distance_upper_bound=BEST_CELL_REACH_M)
             near = np.isfinite(distance)

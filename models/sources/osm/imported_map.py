@@ -10,10 +10,12 @@ import numpy.typing as npt
 
 from models.citymap.geometry.piece_rows import PieceRows, cut_band
 from models.citymap.geometry.pieces import PieceTable
+from models.citymap.geometry.rich_blocks import find_rich_blocks
+from models.citymap.geometry.tiling import BlockSet
 from models.citymap.instances import InstanceTable
 from models.citymap.points import Ints
 from models.citymap.scenery.shapes import DrawnObjects, Outlines, OutlinesBuilder
-from models.citymap.types import Floats, MapShape
+from models.citymap.types import CutRules, Floats, MapShape
 from models.processes import map_forked
 from models.sources.osm.classes import load_classes
 from models.sources.osm.feature_strips import FeatureInstances, FeatureStrips
@@ -33,7 +35,15 @@ class _ImportedStrip:
     rgb: Floats  # [n, 3] of the instances
 
 
-def _import_strip(strips: FeatureStrips, instances: FeatureInstances, number: int) -> _ImportedStrip:
+def _find_rich_blocks(strips: FeatureStrips, rules: CutRules, number: int) -> BlockSet:
+    numbers = [n for n in (number - 1, number, number + 1) if n in strips.numbers]
+    features = {each.number: each.feature for n in numbers for each in strips.read(n)}.values()
+    geometry = np.array([feature.geometry for feature in features], dtype=object)
+    is_walkable = np.array([feature.walkable for feature in features], np.bool_)
+    return find_rich_blocks(geometry, is_walkable, strips.band(number), rules)
+
+
+def _import_strip(strips: FeatureStrips, instances: FeatureInstances, blocks: BlockSet, number: int) -> _ImportedStrip:
     features = [each for each in strips.read(number) if instances.feature_instance[each.number] >= 0]
     instance = instances.feature_instance[[each.number for each in features]]
     heights_m = strips.heights_m[instances.first[instance]]
@@ -45,7 +55,7 @@ def _import_strip(strips: FeatureStrips, instances: FeatureInstances, number: in
     rank = instances.rank[[each.number for each in owned]]
     first = [each for each in owned if instances.first[instances.feature_instance[each.number]] == each.number]
     return _ImportedStrip(
-        rows=cut_band(solids, strips.band(number)),
+        rows=cut_band(solids, strips.band(number), blocks),
         drawing=DrawnObjects.from_shapes([_shape(each.feature) for each in owned], rank),
         instance=instances.feature_instance[[each.number for each in first]],
         names=[each.feature.name for each in first],
@@ -71,11 +81,13 @@ class ImportedMap:
     outlines: Outlines
 
     @classmethod
-    def from_strips(cls, strips: FeatureStrips) -> "ImportedMap":
-        """Import features in several processes, some strips at a time."""
+    def from_strips(cls, strips: FeatureStrips, rules: CutRules) -> "ImportedMap":
+        """Import features in several processes, some strips at a time; pieces that no cell can need are left out."""
         instances, classes = FeatureInstances.join(strips), load_classes()
+        rich = BlockSet.concatenate(list(map_forked(partial(_find_rich_blocks, strips, rules), strips.numbers)))
+        blocks = rich.with_neighbours()
         labels = dict.fromkeys(classes[n].label for n in np.unique(strips.order[instances.feature_instance >= 0]))
-        importer = _StripImporter(strips, instances, OutlinesBuilder(labels))
+        importer = _StripImporter(strips, instances, blocks, OutlinesBuilder(labels))
         pieces = PieceTable.from_bands(importer.rows())
         numbers = np.unique(pieces.instance)
         pieces = pieces.renumber_instances(numbers)
@@ -94,16 +106,19 @@ class ImportedMap:
 class _StripImporter:
     """Collects the results of strips, except their pieces, for I instances."""
 
-    def __init__(self, strips: FeatureStrips, instances: FeatureInstances, drawings: OutlinesBuilder) -> None:
+    def __init__(
+        self, strips: FeatureStrips, instances: FeatureInstances, blocks: BlockSet, drawings: OutlinesBuilder
+    ) -> None:
         count = len(instances.first)
-        self._strips, self._instances, self.drawings = strips, instances, drawings
+        self._strips, self._instances, self._blocks, self.drawings = strips, instances, blocks, drawings
         self.names = dict[int, str]()  # by number of the instance
         self.sources = np.empty(count, "S32")
         self.rgb = np.empty((count, 3), np.float32)
 
     def rows(self) -> Iterator[PieceRows]:
         """Yield the pieces of one strip after the other."""
-        for strip in map_forked(partial(_import_strip, self._strips, self._instances), self._strips.numbers):
+        work = partial(_import_strip, self._strips, self._instances, self._blocks)
+        for strip in map_forked(work, self._strips.numbers):
             self.drawings.add(strip.drawing)
             self.sources[strip.instance], self.rgb[strip.instance] = strip.sources, strip.rgb
             self.names |= {

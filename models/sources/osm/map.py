@@ -256,7 +256,8 @@ def _is_wanted(element: Any, kind: str, row: OsmClass, tags: dict[str, str]) -> 
 
 
 def _city_map(name: str, strips: FeatureStrips, frame: Frame) -> CityMap:
-    imported = ImportedMap.from_strips(strips)
+    rules = CutRules(min_part_points=MIN_PART_POINTS)
+    imported = ImportedMap.from_strips(strips, rules)
     locations = imported.pieces.ground_lattice(
         np.flatnonzero(imported.is_walkable[imported.pieces.instance]), LOCATION_SPACING_M
     )
@@ -269,7 +270,7 @@ def _city_map(name: str, strips: FeatureStrips, frame: Frame) -> CityMap:
         locations_m=locations,
         frame=frame,
         palette=BASIC_PALETTE,
-        rules=CutRules(min_part_points=MIN_PART_POINTS),
+        rules=rules,
         attribution=ATTRIBUTION,
         outlines=imported.outlines,
         pieces=imported.pieces,
