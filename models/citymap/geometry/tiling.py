@@ -96,8 +96,8 @@ def _clip_to_runs(geometry: Geometries, rows: Ints) -> tuple[Geometries, Ints]:
     """
     low, high = tile_span(shapely.bounds(geometry)[:, [1, 3]])
     pieces, sources = [geometry[:0]], [low[:0]]
-    first = np.flatnonzero(np.diff(rows, prepend=rows[:1] - 2) > 1)
-    for begin, end in zip(rows[first].tolist(), rows[np.append(first[1:], len(rows)) - 1].tolist(), strict=True):
+    runs = np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1) if len(rows) else []
+    for begin, end in [(int(run[0]), int(run[-1])) for run in runs]:
         source = np.flatnonzero((low <= end) & (high >= begin))
         piece, is_cut = geometry[source], (low[source] < begin) | (high[source] > end)
         south, north = (begin - 0.5) * TILE_M, (end + 0.5) * TILE_M

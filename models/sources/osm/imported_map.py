@@ -43,7 +43,9 @@ def _find_rich_blocks(strips: FeatureStrips, rules: CutRules, number: int) -> Bl
     return find_rich_blocks(geometry, is_walkable, strips.band(number), rules)
 
 
-def _import_strip(strips: FeatureStrips, instances: FeatureInstances, blocks: BlockSet, number: int) -> _ImportedStrip:
+def _import_strip(
+    strips: FeatureStrips, instances: FeatureInstances, blocks: BlockSet | None, number: int
+) -> _ImportedStrip:
     features = [each for each in strips.read(number) if instances.feature_instance[each.number] >= 0]
     instance = instances.feature_instance[[each.number for each in features]]
     heights_m = strips.heights_m[instances.first[instance]]
@@ -81,11 +83,13 @@ class ImportedMap:
     outlines: Outlines
 
     @classmethod
-    def from_strips(cls, strips: FeatureStrips, rules: CutRules) -> "ImportedMap":
-        """Import features in several processes, some strips at a time; pieces that no cell can need are left out."""
+    def from_strips(cls, strips: FeatureStrips, rules: CutRules | None = None) -> "ImportedMap":
+        """Import features in several processes, some strips at a time, without pieces that no cell of `rules` needs."""
         instances, classes = FeatureInstances.join(strips), load_classes()
-        rich = BlockSet.concatenate(list(map_forked(partial(_find_rich_blocks, strips, rules), strips.numbers)))
-        blocks = rich.with_neighbours()
+        blocks = None
+        if rules is not None:
+            rich = BlockSet.concatenate(list(map_forked(partial(_find_rich_blocks, strips, rules), strips.numbers)))
+            blocks = rich.with_neighbours() if len(rich.keys) else None  # then the cells say what is missing
         labels = dict.fromkeys(classes[n].label for n in np.unique(strips.order[instances.feature_instance >= 0]))
         importer = _StripImporter(strips, instances, blocks, OutlinesBuilder(labels))
         pieces = PieceTable.from_bands(importer.rows())
@@ -107,7 +111,7 @@ class _StripImporter:
     """Collects the results of strips, except their pieces, for I instances."""
 
     def __init__(
-        self, strips: FeatureStrips, instances: FeatureInstances, blocks: BlockSet, drawings: OutlinesBuilder
+        self, strips: FeatureStrips, instances: FeatureInstances, blocks: BlockSet | None, drawings: OutlinesBuilder
     ) -> None:
         count = len(instances.first)
         self._strips, self._instances, self._blocks, self.drawings = strips, instances, blocks, drawings
