@@ -17,6 +17,7 @@ from models.citymap.points import Ints, block_keys, ranges, thin_to_spacing
 from models.citymap.types import Floats
 from models.compiled import compiled
 from models.spool import row_blocks, spooled, starts_of
+from models.strings import compact
 
 PIECES_PER_BLOCK: Final = 20_000  # pieces whose geometries are built at a time, to bound memory
 TILE_COLUMNS_PER_BLOCK: Final = 64  # columns of tiles whose pieces are linked together
@@ -80,6 +81,27 @@ class PieceTable:
             self, **spooled({"instance": np.searchsorted(numbers, block).astype(np.int32)} for block in blocks)
         )
         table.__dict__["tile"] = self.tile  # the tiles stay the same
+        return table
+
+    def take(self, is_taken: npt.NDArray[np.bool_]) -> "PieceTable":
+        """Return the table of the pieces where `is_taken` [K]; links to others are dropped."""
+        pieces = np.flatnonzero(is_taken)
+        number = np.cumsum(is_taken) - 1
+        segments = ranges(self.segment_starts[pieces], self.segment_starts[pieces + 1])
+        links = self.links[ranges(self.link_starts[pieces], self.link_starts[pieces + 1])]
+        source = np.repeat(np.arange(len(pieces)), np.diff(self.link_starts)[pieces])
+        stays = is_taken[links]
+        columns = ("instance", "form", "dimension", "bounds_m", "heights_m", "crown_m", "point_count")
+        table = replace(
+            self,
+            tile_starts=compact(np.concatenate([[0], np.cumsum(is_taken)])[self.tile_starts]),
+            segment_starts=starts_of(np.diff(self.segment_starts)[pieces]),
+            segments=self.segments[segments],
+            link_starts=starts_of(np.bincount(source[stays], minlength=len(pieces))),
+            links=number[links[stays]].astype(np.int32),
+            **{name: getattr(self, name)[pieces] for name in columns},
+        )
+        table.__dict__["tile"] = self.tile[pieces]
         return table
 
     def geometry(self, pieces: Ints) -> Geometries:

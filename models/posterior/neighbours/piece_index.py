@@ -14,6 +14,8 @@ from models.citymap.cells import CellTable, PartTable
 from models.citymap.geometry.closest_points import closest_instances
 from models.citymap.geometry.cutting import cut_pieces
 from models.citymap.geometry.pieces import PieceTable
+from models.citymap.geometry.solids import THING
+from models.citymap.geometry.tiling import BLOCK_TILES, TILE_M, BlockSet, block_key
 from models.citymap.hints import HINT_REACH_M
 from models.citymap.map_geometry import PieceGeometry
 from models.citymap.points import Ints, ranges
@@ -28,6 +30,7 @@ from models.spool import row_blocks, spooled, spooled_zeros
 from models.strings import compact
 
 FILE: Final = "pieces.safetensors"
+MAX_SHARE_TAKEN: Final = 0.8  # of the pieces; taking more takes more memory than it saves
 OBJECT_COLUMNS: Final = ("instance", "rgb", "parts", "is_flat")
 
 
@@ -59,7 +62,7 @@ class PieceNeighbourIndex:
         offset, free = spooled_zeros(2 * int(starts[-1]), np.int8).reshape(-1, 2), starts[:-1].copy()
         for columns in row_blocks(spool):
             put_in_order(columns["owner"], columns["offset"], free, offset)
-        return cls(objects, compact(starts), offset, bodies.pieces, bodies.rules, center_m)
+        return cls(objects, compact(starts), offset, _pieces_near(bodies.pieces, center_m), bodies.rules, center_m)
 
     @property
     def cuts(self) -> bool:
@@ -149,6 +152,14 @@ class PieceNeighbourIndex:
             "rules": np.array(astuple(self.rules), dtype=np.float64),
         }
         return {name: np.ascontiguousarray(column) for name, column in columns.items()}
+
+
+def _pieces_near(pieces: PieceTable, centers_m: Floats) -> PieceTable:
+    """Return the pieces that cells around centres [N, 2] and their nodes can need, if that is much less than all."""
+    column, row = np.round(centers_m / TILE_M).astype(np.int64).T
+    blocks = BlockSet(np.unique(block_key(column // BLOCK_TILES, row // BLOCK_TILES))).with_neighbours()
+    is_near = blocks.contains(*pieces.tile.T) | (pieces.form == THING)
+    return pieces.take(is_near) if is_near.mean() < MAX_SHARE_TAKEN else pieces
 
 
 @compiled

@@ -36,16 +36,16 @@ def test_no_block_is_missing_that_may_hold_a_centre(seed) -> None:
     geometry, is_walkable = random_features(seed)
     is_walkable[-1] = False
     blocks = find_rich_blocks(geometry, is_walkable, COLUMNS, RULES)
-    found, tiles = 0, list(itertools.product(range(*COLUMNS), range(-30, 60)))
+    count, tiles = 0, list(itertools.product(range(*COLUMNS), range(-30, 60)))
     column, row = np.array(tiles).T
     for tile, is_rich in zip(tiles, blocks.contains(column, row), strict=True):
         center = np.array(tile) * TILE_M
         cube = shapely.box(*(center - RULES.cell_size_m / 2), *(center + RULES.cell_size_m / 2))
         near_path = shapely.distance(shapely.Point(center), geometry[is_walkable]).min() <= RULES.reach_m
         may_be = near_path and shapely.intersects(cube, geometry).sum() >= MIN_FEATURES
-        found += may_be
+        count += may_be
         assert is_rich or not may_be
-    assert found
+    assert count
     assert len(blocks.keys) * BLOCK_TILES**2 < len(tiles) / 2, "most of the forest is left out"
 
 

@@ -137,3 +137,19 @@ def test_places_to_stand_are_the_same_however_many_areas_are_looked_at_together(
     assert len(np.unique(block, axis=0)) == len(whole) > 500
     monkeypatch.setattr(pieces_module, "PIECES_PER_BLOCK", at_once)
     assert np.array_equal(table.ground_lattice(rows, 2.0), whole)
+
+
+def test_a_table_of_chosen_pieces_has_their_geometry_and_links() -> None:
+    rng = np.random.default_rng(1)
+    table = pieces_of([Solid(n, "ground", blob(rng, 40)) for n in range(6)])
+    is_taken = rng.random(len(table.instance)) < 0.6
+    taken, old = table.take(is_taken), np.flatnonzero(is_taken)
+    assert shapely.equals(taken.geometry(np.arange(len(old))), table.geometry(old)).all()
+    assert (taken.tile == table.tile[old]).all()
+    for n, piece in enumerate(old):
+        links = table.links[table.link_starts[piece] : table.link_starts[piece + 1]]
+        expected = [int(np.searchsorted(old, link)) for link in links if is_taken[link]]
+        assert taken.links[taken.link_starts[n] : taken.link_starts[n + 1]].tolist() == expected
+    first = np.array([[-2, -3]]) + table.low
+    rectangle = table.in_tiles(first, first + 9)[1]
+    assert old[taken.in_tiles(first, first + 9)[1]].tolist() == rectangle[is_taken[rectangle]].tolist()
