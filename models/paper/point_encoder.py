@@ -112,11 +112,6 @@ class PointEncoder(nn.Module):
         self.last = _layers(width + 3, *layers.pooled)
         self.head = _head((layers.pooled[-1], *layers.head))
 
-    @property
-    def is_trained_further(self) -> bool:
-        """Whether its weights are trained with those of the model that has it."""
-        return next(self.parameters()).requires_grad
-
     def forward(self, points: Tensor) -> Tensor:
         """Return features [R, POINT_WIDTH] of instances from points [R, P, 6]: position and colour."""
         if self.architecture == "small":

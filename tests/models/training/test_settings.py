@@ -2,6 +2,8 @@ import pytest
 
 from models.errors import TrainingError
 from models.paper.checkpoint import METHODS
+from models.paper.instance_encoder import PAPER_INPUTS
+from models.training.experiments import POINTS, TrainingRun
 from models.training.settings import TrainingConfig, load_settings
 
 
@@ -66,3 +68,11 @@ def test_what_is_wrong_with_a_setting_is_said(change, message) -> None:
 def test_an_unknown_method() -> None:
     with pytest.raises(TrainingError, match="text2loc"):
         load_settings("bm25")
+
+
+def test_a_run_needs_a_point_encoder_of_its_own_architecture() -> None:
+    run = TrainingRun("mncl", (("inputs", PAPER_INPUTS),))
+    assert run.point_run == TrainingRun(POINTS)
+    official = run.with_changes((("point_encoder", "official"), ("points_frozen", False)))
+    assert load_settings(POINTS, official.point_run.settings)[0].point_encoder == "official"
+    assert not load_settings("mncl", official.settings)[0].points_frozen
