@@ -24,7 +24,7 @@ def find_rich_blocks(
     A cell has something to stand on within reach, and parts of at least `MIN_FEATURES` features. `geometry` [n] has the
     features within this reach of the columns. No block with such a cell is missing.
     """
-    keys = [np.zeros(0, np.int64)]
+    keys: list[Ints] = [np.zeros(0, np.int64)]
     if len(geometry):
         bounds = shapely.bounds(geometry)
         low, high = bounds[:, 1].min() - rules.reach_m, bounds[:, 3].max() + rules.reach_m
@@ -61,4 +61,5 @@ def _rich_parts(geometry: Geometries, is_walkable: npt.NDArray[np.bool_], box: B
 
 
 def _overlaps(bounds: Floats, low_m: Floats, high_m: Floats) -> npt.NDArray[np.bool_]:
-    return ((bounds[:, :2] <= high_m) & (bounds[:, 2:] >= low_m)).all(axis=1)
+    overlaps: npt.NDArray[np.bool_] = ((bounds[:, :2] <= high_m) & (bounds[:, 2:] >= low_m)).all(axis=1)
+    return overlaps

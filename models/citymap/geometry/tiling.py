@@ -71,7 +71,7 @@ class Clipped:
 
 def clip_to_tiles(geometry: Geometries, band: TileSpan, blocks: BlockSet | None = None) -> Clipped:
     """Clip geometries [n] to the tiles of some columns, of these to the tiles of `blocks` if given."""
-    feature = np.arange(len(geometry))
+    feature: Ints = np.arange(len(geometry))
     if blocks is not None:
         geometry, feature = _clip_to_runs(geometry, blocks.rows(band))
     strips = _cut_along_axis(geometry, feature, 0, band)

@@ -175,6 +175,8 @@ def test_a_cell_with_points_has_one_vector_alone_or_in_a_batch(features, text_en
         cached = encode_gallery(model, model.with_point_features(few))[0]
     assert torch.allclose(together.global_vectors[1], alone.global_vectors[0], atol=1e-5)
     size = int(alone.mask.sum())
+    assert together.relation is not None
+    assert alone.relation is not None
     assert torch.allclose(together.relation[1, :size], alone.relation[0, :size], atol=1e-5)
     assert np.allclose(cached, together.global_vectors, atol=1e-5), "those of an index"
 

@@ -319,6 +319,8 @@ def test_points_turn_with_their_cell(region) -> None:
     rows = np.array([1, 0])
     batch = region.features.batch(rows, PointSampling("cell"))
     turned = reflect_cells(batch, torch.from_numpy(SYMMETRIES[[4, 1]]))  # east and north change places; north is south
+    assert batch.points is not None
+    assert turned.points is not None
     row = 0
     for cell, size in enumerate(batch.mask.sum(dim=1).tolist()):
         for _ in range(size):
