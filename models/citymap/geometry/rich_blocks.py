@@ -61,5 +61,5 @@ def _rich_parts(geometry: Geometries, is_walkable: npt.NDArray[np.bool_], box: B
 
 
 def _overlaps(bounds: Floats, low_m: Floats, high_m: Floats) -> npt.NDArray[np.bool_]:
-    overlaps: npt.NDArray[np.bool_] = ((bounds[:, :2] <= high_m) & (bounds[:, 2:] >= low_m)).all(axis=1)
-    return overlaps
+    west, south, east, north = bounds.T
+    return (west <= high_m[0]) & (east >= low_m[0]) & (south <= high_m[1]) & (north >= low_m[1])
