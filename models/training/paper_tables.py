@@ -41,7 +41,8 @@ HEAD = TrainingRun("regressor").with_changes((("plain", False), ("point", False)
 LONG_VALIDATIONS = 15  # of a training of given length
 UNIT_LOSS = "negative contrastive, half the distance, no least weight (the paper)"
 OUR_HEAD, OUR_MATCHING = TrainingRun("regressor"), TrainingRun("matching").with_changes((("refine", True),))
-GAUSSIAN_HEAD = OUR_HEAD.with_changes((("error", "gaussian"),))
+# The likelihood of a position weighs about ten times its squared error, so that of the matches does too.
+GAUSSIAN_HEAD = OUR_HEAD.with_changes((("error", "gaussian"), ("match_weight", 1.0)))
 
 
 def _localized(name: str, run: TrainingRun, fine: TrainingRun, test: tuple[str, str, str], validation: str) -> TableRow:
