@@ -234,6 +234,7 @@ LONG_HEAD = Experiment(
     (
         TableRow("MNCL", MNCL, fine=_lasting(HEAD, 4000)),
         TableRow("MNCL, centre of the retrieved cell", MNCL, fine=_lasting(HEAD, 4000), at_center=True),
+        TableRow("MNCL, re-ranked by PARC-Loc's matching", MNCL, fine=_lasting(HEAD, 4000), rerank=True),
     ),
     "localization",
     seeds=1,
