@@ -19,7 +19,17 @@ pytestmark = [
     ),
 ]
 ROOT = Path(__file__).parents[3]
-NAMES = ["device", "lending", *METHODS, *FINE_METHODS, "mncl-points", "matching-points", "points", "posterior"]
+NAMES = [
+    "device",
+    "lending",
+    *METHODS,
+    *FINE_METHODS,
+    "mncl-points",
+    "matching-points",
+    "trained-points",
+    "points",
+    "posterior",
+]
 
 
 @pytest.fixture(scope="module")
