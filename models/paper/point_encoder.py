@@ -97,7 +97,8 @@ class PointEncoder(nn.Module):
     instances in the frame of their cell, so that it knows size and place. Differs from the released code: layer norm,
     where that has batch norm; a ball has its 32 nearest points, there any 32; and no point joins the ball of another
     instance, as the self-loops that PyG's PointConv adds by default make it there. Its gradients are computed with
-    checkpoints, which takes a third more time and bounds the memory.
+    checkpoints, to bound the memory: a step of MNCL that trains it takes 9 to 14 s with 8 cells and 63 s with 64 cells
+    (918 instances) on one core, and 1.9 GB.
     """
 
     def __init__(self, architecture: PointArchitecture = "small") -> None:
