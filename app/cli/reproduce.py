@@ -14,6 +14,7 @@ from models.errors import DataError, TrainingError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from index.evaluation.reproduction.plan import PlannedRun
     from models.training.experiments import TrainingRun, TrainingScale
 
 SYNTHETIC_SCALES = ("demo", "full")  # scales of `models.sources.synthetic.towns.write_towns`
@@ -52,9 +53,11 @@ def reproduce(
     ] = None,
     device: Annotated[str | None, typer.Option(help="auto, cpu or cuda; several GPUs are used in turn")] = None,
     report: Annotated[Path | None, typer.Option(help="directory for the report; default: OUT")] = None,
+    dry_run: Annotated[bool, typer.Option("--dry-run", help="list the trainings and estimate their hours")] = False,
 ) -> None:
     """Reproduce tables 1-4 and figures 3-5 of MNCL: train missing models, measure, and compare with the paper."""
     from app.cli.progress import stage_bars
+    from index.evaluation.reproduction.plan import plan_runs
     from index.evaluation.reproduction.report import write_reproduction
     from index.evaluation.reproduction.reproduce import choose_experiments, figure_3_path, scale_in_epochs
     from index.evaluation.reproduction.reproduce import reproduce as run
@@ -65,6 +68,15 @@ def reproduce(
     numbers, experiments = _parse_seeds(seeds), choose_experiments(tables)
     scale = _override(SCALES["demo" if data == "demo" else "full"], config, steps, device)
     max_workers = _check_runs(scale, (*required_runs(experiments), TrainingRun(POINTS)), config)
+    if dry_run:
+        store = _existing_store(data, out)
+        if epochs and store is None:
+            raise DataError(
+                "--epochs counts in batches of the data, which are not ready yet; use --steps with --dry-run"
+            )
+        scale = scale_in_epochs(scale, store, epochs) if epochs and store else scale
+        _show_plan(plan_runs(store, out, scale, numbers, experiments), workers or max_workers)
+        return
     with stage_bars() as show:
         store = _store(_towns(data, out, show) if data in SYNTHETIC_SCALES else Path(data), out, show)
         scale = scale_in_epochs(scale, store, epochs) if epochs else scale
@@ -136,11 +148,30 @@ def _parse_seeds(text: str) -> list[int]:
         raise DataError(f"--seeds {text}: not whole numbers; write them as 0 or 0,1,2") from None
 
 
+def _show_plan(runs: "Sequence[PlannedRun]", workers: int) -> None:
+    width = max(len(run.name) for run in runs)
+    for run in runs:
+        typer.echo(
+            f"{run.name:<{width}}  seed {run.seed}  {run.steps:>6} steps  {'done' if run.is_done else 'missing'}"
+        )
+    missing = [run.hours for run in runs if not run.is_done]
+    typer.echo(
+        f"{len(runs)} trainings, {len(missing)} missing: about {sum(missing):.1f} hours of one core in all, shared by "
+        f"{workers} workers. Estimate: steps x batch size / descriptions per second as measured on a CPU with MiniLM "
+        "and a width of 128 (models/reports/demo), without making data, validating and measuring."
+    )
+
+
+def _prepared(scale: str, out: Path) -> Path:
+    return out / "data" / scale / "prepared"
+
+
 def _towns(scale: str, out: Path, show: Callable[[str, int, int], None]) -> Path:
     from models.sources.kitti360.job import prepare_data
     from models.sources.synthetic.towns import write_towns
 
-    raw, prepared = (out / "data" / scale / name for name in ("raw", "prepared"))
+    prepared = _prepared(scale, out)
+    raw = prepared.with_name("raw")
     if not raw.is_dir():
         write_towns(raw, scale, TOWN_SEED, lambda done, total: show("towns", done, total))
     prepare_data(raw, prepared, None, seed=TOWN_SEED, progress=show)
@@ -149,13 +180,29 @@ def _towns(scale: str, out: Path, show: Callable[[str, int, int], None]) -> Path
 
 def _store(data: Path, out: Path, show: Callable[[str, int, int], None]) -> Path:
     """Convert data to a store, which opens quickly; return OpenStreetMap files and stores unchanged."""
-    from index.build.manifest import fingerprint
     from models.sources.store.files import convert
+
+    store = _store_path(data, out)
+    if store != data and not store.is_dir():
+        convert(data, store, None, lambda done, total: show("MB of points", done >> 20, total >> 20))
+    return store
+
+
+def _store_path(data: Path, out: Path) -> Path:
+    from index.build.manifest import fingerprint
     from models.sources.store.layout import MANIFEST
 
     if not data.is_dir() or (data / MANIFEST).is_file():
         return data
-    store = out / "data" / f"store-{fingerprint(data)[:12]}"
-    if not store.is_dir():
-        convert(data, store, None, lambda done, total: show("MB of points", done >> 20, total >> 20))
-    return store
+    return out / "data" / f"store-{fingerprint(data)[:12]}"
+
+
+def _existing_store(data: str, out: Path) -> Path | None:
+    """Return the store of data, as `_store`; None if it is not made yet."""
+    if data in SYNTHETIC_SCALES and not (_prepared(data, out) / "cells").is_dir():
+        return None
+    path = _prepared(data, out) if data in SYNTHETIC_SCALES else Path(data)
+    if not path.exists():
+        raise DataError(f"--data {data}: no such file or directory; give demo, full or a path")
+    store = _store_path(path, out)
+    return store if store.exists() else None

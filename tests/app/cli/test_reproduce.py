@@ -7,6 +7,7 @@ from typer.testing import CliRunner
 from app.cli.main import app
 from app.cli.reproduce import _override
 from models.errors import DataError
+from models.sources.source import open_source
 from models.training.experiments import SCALES
 from models.training.settings import load_settings
 
@@ -69,3 +70,28 @@ def test_what_cannot_be_made_is_said_in_one_line_before_any_work(tmp_path, optio
     assert result.exit_code != 0
     assert message in result.output
     assert not (tmp_path / "runs").exists()
+
+
+def test_a_dry_run_lists_trainings_and_writes_nothing(tmp_path) -> None:
+    out = tmp_path / "runs"
+    options = ("--tables", "2", "--seeds", "0,1", "--workers", "3", "--dry-run")
+    result = CliRunner().invoke(app, ["reproduce", "--out", str(out), *options])
+    assert result.exit_code == 0, result.output
+    rows = result.output.splitlines()
+    assert [row.split()[-1] for row in rows[:-1]] == ["missing"] * 21, "five rows, two inputs, two seeds, points"
+    assert "21 trainings, 21 missing: about" in rows[-1]
+    assert "shared by 3 workers" in rows[-1]
+    assert not out.exists()
+    result = CliRunner().invoke(app, ["reproduce", "--out", str(out), *options, "--epochs", "2"])
+    assert result.exit_code != 0
+    assert "--epochs counts in batches" in result.output
+    result = CliRunner().invoke(app, ["reproduce", "--out", str(out), "--data", str(out), "--dry-run"])
+    assert "no such file" in result.output
+
+
+def test_a_dry_run_uses_the_data_that_exist(osm_file, tmp_path) -> None:
+    options = ("--tables", "2", "--dry-run", "--epochs", "2")
+    result = CliRunner().invoke(app, ["reproduce", "--out", str(tmp_path), "--data", str(osm_file), *options])
+    assert result.exit_code == 0, result.output
+    steps = 2 * (len(open_source(osm_file, "train").queries()) // 64)
+    assert f" {steps} steps  missing" in result.output
