@@ -1,86 +1,136 @@
 """Figures 3, 4 and 5 of MNCL (AAAI 2025), as `reproduce` draws them."""
 
 import textwrap
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
 from index.answering.query import Query
+from index.answering.result import LocalizerResult
 from index.answering.vector_localizer import VectorLocalizer
 from index.evaluation.report import DPI
+from models.citymap.cells import CellTable
 from models.citymap.gallery import MapData
+from models.citymap.points import Ints
 from models.citymap.queries import Queries
+from models.citymap.types import Floats
+from models.posterior.distribution import PositionDistribution
 from models.training.metrics import RETRIEVAL_KS
 
 QUERIES_SHOWN, CELLS_SHOWN = 4, 3  # queries, and retrieved cells of each
 SEED = 0  # queries are chosen at random
-UNKNOWN_COLOUR = 0.7
-RIGHT_COLOUR, WRONG_COLOUR = "#2a9d4b", "#d1495b"
-MIN_LABELLED_M = 3.0  # smaller instances get no name
+CHARACTERS_PER_LINE, LEGEND_COLUMNS = 200, 8
+POSITIVE_COLOUR, NEGATIVE_COLOUR = "#00a000", "#e60000"
+# Colours of frequent classes; the others of a picture take the spare ones, the most frequent first.
+CLASS_COLOURS = {
+    "road": "#7f7f7f", "sidewalk": "#d98cb3", "parking": "#8fb8de", "terrain": "#c9a83a", "vegetation": "#3a9d5d",
+    "building": "#8c564b", "wall": "#1b2a7a", "fence": "#ff7f0e", "garage": "#c49c94",
+}  # fmt: skip
+SPARE_COLOURS = ["#9467bd", "#17becf", "#b5d700", "#1f77b4", "#f7b6d2", "#98df8a", "#5254a3", "#ffdd55", "#637939"]
+OTHER, OTHER_COLOUR = "other", "#c7c7c7"
+PREDICTED: dict[str, Any] = {"marker": "*", "ms": 13, "color": "#ff1493", "mec": "white"}
+TRUE: dict[str, Any] = {"marker": "X", "ms": 10, "color": "black", "mec": "white"}
 Numbers = np.ndarray[Any, np.dtype[np.float64]]
 
 
-def draw_figure_3(data: MapData, queries: Queries, localizer: VectorLocalizer, path: Path) -> None:
-    """Write a PNG: one row per query, the true cell on the left, then the retrieved cells, best first.
+def draw_figure_3(data: MapData, queries: Queries, localizers: Mapping[str, VectorLocalizer], path: Path) -> None:
+    """Write a PNG: one row per query, with the first cells of each localizer, best first.
 
-    The true cell has a green frame. The star is the predicted position, the cross the true one if the cell contains it.
-    The title has the error, or "other scene".
+    A cell that contains the true position has a green frame. The colours of the points are classes.
     """
     rows = np.random.default_rng(SEED).choice(len(queries), min(QUERIES_SHOWN, len(queries)), replace=False)
-    shown_queries = [Query(description=" ".join(queries.sentences[q]), top_k=CELLS_SHOWN) for q in rows]
-    figure = Figure(figsize=(2.6 * (CELLS_SHOWN + 1), 3.1 * len(rows)), layout="constrained", dpi=DPI)
-    parts = figure.subfigures(len(rows), 1, squeeze=False)[:, 0]
-    for q, part, query, result in zip(rows, parts, shown_queries, localizer.find(shown_queries), strict=True):
-        part.suptitle(textwrap.fill(query.description, 130), fontsize=8, x=0.01, ha="left", style="italic")
-        axes, truth = part.subplots(1, CELLS_SHOWN + 1), int(queries.truth[q])
-        _draw_cell(axes[0], data, truth)
-        _mark_truth(axes[0], queries.positions_m[q])
-        axes[0].set_title("true cell", fontsize=8)
-        assert result.located is not None  # there is no filter
-        for rank, (ax, cell) in enumerate(zip(axes[1:], result.located.rows[:CELLS_SHOWN].tolist(), strict=False)):
-            colour = RIGHT_COLOUR if cell == truth else WRONG_COLOUR
-            _draw_cell(ax, data, cell, colour)
-            position = result.located.positions[rank]
-            ax.plot(*position, marker="*", ms=12, color="#e63946", mec="white")
-            _mark_truth(ax, queries.positions_m[q])
-            same = data.cells.scenes[cell] == queries.scenes[q]
-            error = f"{np.linalg.norm(position - queries.positions_m[q]):.1f} m off" if same else "other scene"
-            ax.set_title(f"{rank + 1}: {error}", fontsize=8, color=colour)
+    texts = [Query(description=" ".join(queries.sentences[q]), top_k=CELLS_SHOWN) for q in rows]
+    located = {name: [_located(result) for result in localizer.find(texts)] for name, localizer in localizers.items()}
+    shown = np.unique([one.rows[:CELLS_SHOWN] for by_query in located.values() for one in by_query])
+    colours = class_colours(data, shown)
+    figure = Figure(figsize=(2.2 * CELLS_SHOWN * len(located), 3.0 * len(rows) + 0.9), layout="constrained", dpi=DPI)
+    heights = [3.0] * len(rows) + [0.9]
+    *parts, last = figure.subfigures(len(heights), 1, height_ratios=heights, squeeze=False)[:, 0]
+    for n, (q, part) in enumerate(zip(rows, parts, strict=True)):
+        part.suptitle(textwrap.fill(texts[n].description, CHARACTERS_PER_LINE), fontsize=9, x=0.01, ha="left")
+        groups = part.subfigures(1, len(located), wspace=0.03, squeeze=False)[0]
+        for group, (name, by_query) in zip(groups, located.items(), strict=True):
+            group.suptitle(name, fontsize=9, weight="bold")
+            axes = group.subplots(1, CELLS_SHOWN)
+            for rank, cell in enumerate(by_query[n].rows[:CELLS_SHOWN].tolist()):
+                _draw_cell(axes[rank], data, cell, colours)
+                _mark_positions(axes[rank], data, cell, queries.take(np.array([q])), by_query[n].positions[rank])
+                axes[rank].set_title(f"{rank + 1}: {axes[rank].get_title()}", fontsize=8)
+    last.legend(handles=_legend(colours), loc="center", ncols=LEGEND_COLUMNS, frameon=False, fontsize=8)
     FigureCanvasAgg(figure).print_png(path)
 
 
-def _draw_cell(axes: Axes, data: MapData, cell: int, frame: str = "black") -> None:
-    """Draw the points of a cell's instances from above, with names of large instances."""
+def _located(result: LocalizerResult) -> PositionDistribution:
+    assert result.located is not None  # there is no filter
+    return result.located
+
+
+def class_colours(data: MapData, cells: Ints) -> dict[str, str]:
+    """Return a colour for each class in some cells; the rarest share that of OTHER if there are too many."""
+    labels = [data.gallery.labels[n] for n in data.cells.parts.take(cells).instance]
+    by_frequency = [label for label, _ in Counter(labels).most_common()]
+    unusual = [label for label in by_frequency if label not in CLASS_COLOURS]
+    colours = {label: CLASS_COLOURS[label] for label in by_frequency if label in CLASS_COLOURS}
+    colours |= dict(zip(unusual, SPARE_COLOURS, strict=False))
+    return colours if len(unusual) <= len(SPARE_COLOURS) else colours | {OTHER: OTHER_COLOUR}
+
+
+def contains(cells: CellTable, cell: int, position_m: Floats, scene: str) -> bool:
+    """Return whether a cell contains a position [2] of a scene."""
+    return bool(cells.scenes[cell] == scene and (abs(position_m - cells.center_m[cell, :2]) <= cells.size_m / 2).all())
+
+
+def _draw_cell(axes: Axes, data: MapData, cell: int, colours: Mapping[str, str]) -> None:
+    """Draw the points of a cell's instances from above, small instances over large ones."""
     cells = data.cells
     parts, half = cells.parts, cells.size_m / 2
     assert cells.sample is not None  # a data set has its points
     samples = cells.sample(np.array([cell]))
-    for row, points in zip(range(parts.starts[cell], parts.starts[cell + 1]), samples, strict=True):
-        low, high = parts.low_m[row, :2], parts.high_m[row, :2]
-        reach = np.abs(points[:, :2]).max(axis=0)  # samples have their own scale
-        place = (low + high) / 2 + points[:, :2] * (high - low) / 2 / np.maximum(reach, 1e-6)
-        colour = np.where(points[:, 3:] < 0, UNKNOWN_COLOUR, points[:, 3:])
-        axes.scatter(place[:, 0], place[:, 1], s=1.5, c=colour, linewidths=0)
-        if max(high - low) >= MIN_LABELLED_M:
-            east, north = np.clip((low + high) / 2, *(cells.center_m[cell, :2] + side * half for side in (-0.9, 0.9)))
-            axes.text(east, north, data.gallery.labels[parts.instance[row]], fontsize=5, ha="center", clip_on=True)
+    rows = np.arange(parts.starts[cell], parts.starts[cell + 1])
+    area = np.prod(parts.high_m[rows, :2] - parts.low_m[rows, :2], axis=1)
+    for n in np.argsort(-area):
+        low, high = parts.low_m[rows[n], :2], parts.high_m[rows[n], :2]
+        reach = np.abs(samples[n, :, :2]).max(axis=0)  # samples have their own scale
+        place = (low + high) / 2 + samples[n, :, :2] * (high - low) / 2 / np.maximum(reach, 1e-6)
+        colour = colours.get(data.gallery.labels[parts.instance[rows[n]]], OTHER_COLOUR)
+        axes.scatter(place[:, 0], place[:, 1], s=2.5, c=colour, linewidths=0)
     east, north = cells.center_m[cell, :2]
     axes.set(xlim=(east - half, east + half), ylim=(north - half, north + half), xticks=[], yticks=[])
     axes.set_aspect("equal")
-    axes.set_facecolor("#f4f1ea")
+
+
+def _mark_positions(axes: Axes, data: MapData, cell: int, query: Queries, predicted_m: Floats) -> None:
+    """Mark the predicted and the true position, frame the cell and write the error into the title."""
+    truth_m, scene = query.positions_m[0], query.scenes[0]
+    is_positive = contains(data.cells, cell, truth_m, scene)
+    error = f"{np.linalg.norm(predicted_m - truth_m):.0f} m off" if data.cells.scenes[cell] == scene else "other scene"
+    axes.plot(*predicted_m, **PREDICTED)
+    if is_positive:
+        axes.plot(*truth_m, **TRUE)
+    axes.set_title(error)
     for spine in axes.spines.values():
-        spine.set(color=frame, linewidth=2)
+        spine.set(color=POSITIVE_COLOUR if is_positive else NEGATIVE_COLOUR, linewidth=3)
 
 
-def _mark_truth(axes: Axes, position_m: "np.ndarray[tuple[int], np.dtype[np.float64]]") -> None:
-    (west, east), (south, north) = axes.get_xlim(), axes.get_ylim()
-    if west <= position_m[0] <= east and south <= position_m[1] <= north:
-        axes.plot(*position_m, marker="x", ms=9, mew=2, color="black")
+def _legend(colours: Mapping[str, str]) -> list[Artist]:
+    """Return the entries of the legend: classes by name, then frames and marks."""
+    classes = [Line2D([], [], ls="", marker="o", color=colours[name], label=name) for name in sorted(colours)]
+    frames = {"contains the true position": POSITIVE_COLOUR, "does not": NEGATIVE_COLOUR}
+    return [
+        *classes,
+        *(Patch(fill=False, ec=colour, lw=2, label=label) for label, colour in frames.items()),
+        Line2D([], [], ls="", label="predicted", **PREDICTED),
+        Line2D([], [], ls="", label="true", **TRUE),
+    ]
 
 
 def draw_figure_4(path: Path, titles: Sequence[str], curves: Sequence[Sequence[Numbers]]) -> None:

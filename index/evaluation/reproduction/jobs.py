@@ -235,7 +235,7 @@ def _rankings(retriever: Retriever, data: Path) -> dict[str, dict[str, float]]:
     return result
 
 
-def localize(job: ReproductionJob, fine_job: ReproductionJob, draw: bool) -> None:
+def localize(job: ReproductionJob, fine_job: ReproductionJob) -> None:
     """Measure localization with a fine stage and at the centres of the cells, and save it with the retriever's result.
 
     Both on test and validation scenes.
@@ -247,19 +247,28 @@ def localize(job: ReproductionJob, fine_job: ReproductionJob, draw: bool) -> Non
         localizer = _localizer(data, retriever, refiner=refiner)
         report = evaluate(data, queries, localizer)
         result[split], result[AT_CENTER][split] = report["localization"], report[AT_CENTER]
-        if draw and split == TEST:
-            draw_figure_3(data, queries, localizer, job.directory / FIGURE_3)
     record = {"key": job.key + fine_job.key, "localization": result}
-    replace_file(_localization_file(job, fine_job), json.dumps(record).encode())
+    replace_file(localization_file(job, fine_job), json.dumps(record).encode())
 
 
 def read_localization(job: ReproductionJob, fine_job: ReproductionJob) -> dict[str, Any] | None:
     """Return the saved localization by split; None if it is not measured yet."""
-    result = _read_result(_localization_file(job, fine_job), job.key + fine_job.key)
+    result = _read_result(localization_file(job, fine_job), job.key + fine_job.key)
     return result and result["localization"]
 
 
-def _localization_file(job: ReproductionJob, fine_job: ReproductionJob) -> Path:
+def draw_figure_3_of(jobs: dict[str, ReproductionJob], fine_job: ReproductionJob, path: Path) -> None:
+    """Draw figure 3 on the test scenes with the retrievers of `jobs`, by name, and one fine stage."""
+    torch.set_num_threads(1)
+    refiner = load_fine(fine_job.directory / WEIGHTS_DIR)
+    [(data, queries)] = open_queries(fine_job.data, TEST)
+    retrievers = {name: load_retriever(job.directory / WEIGHTS_DIR) for name, job in jobs.items()}
+    localizers = {name: _localizer(data, retriever, refiner=refiner) for name, retriever in retrievers.items()}
+    draw_figure_3(data, queries, localizers, path)
+
+
+def localization_file(job: ReproductionJob, fine_job: ReproductionJob) -> Path:
+    """Return the file of the localization with a fine stage."""
     return job.directory / f"localization-{fine_job.run.name}.json"
 
 

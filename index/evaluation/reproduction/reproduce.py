@@ -14,6 +14,8 @@ from index.evaluation.reproduction.jobs import (
     FIGURE_3,
     TEST,
     ReproductionJob,
+    draw_figure_3_of,
+    localization_file,
     localize,
     measure_reranked,
     read_localization,
@@ -24,10 +26,11 @@ from models.citymap.types import Progress
 from models.errors import DataError
 from models.sources.source import open_source
 from models.training.experiments import Experiment, TrainingScale, fine_pairs, required_runs, reranked_pairs
-from models.training.paper_tables import EXPERIMENTS, HEAD, MNCL
+from models.training.paper_tables import EXPERIMENTS, HEAD, MNCL, TEXT2LOC
 from models.training.settings import load_settings
 
 EPOCHS_PER_HALVING = 5  # after which the papers halve the learning rate
+FIGURE_3_RUNS = {"Text2Loc": TEXT2LOC, "MNCL": MNCL}  # retrievers, which share HEAD
 
 
 def scale_in_epochs(scale: TrainingScale, data: Path, epochs: int) -> TrainingScale:
@@ -85,7 +88,8 @@ def reproduce(
         for n, seed in enumerate(seeds)
         for run, fine in fine_pairs(experiments, n)
     ]
-    _localize(pairs, seeds[0], workers, progress)
+    _localize(pairs, workers, progress)
+    _draw_figure_3([pair for pair in pairs if pair[0].seed == seeds[0] and pair[1].run == HEAD])
     for job, fine_job in pairs:
         by_fine = results_by_run[job.run.name][list(seeds).index(job.seed)].setdefault("localization", {})
         by_fine[fine_job.run.name] = read_localization(job, fine_job)
@@ -111,13 +115,8 @@ def _train(stage: str, jobs: Sequence[ReproductionJob], workers: int, progress: 
         progress(stage, len(jobs) - len(missing) + done, len(jobs))
 
 
-def _localize(
-    pairs: Sequence[tuple[ReproductionJob, ReproductionJob]], first_seed: int, workers: int, progress: Progress
-) -> None:
-    drawn = (first_seed, MNCL, HEAD)
-    missing = [
-        (*pair, (pair[0].seed, pair[0].run, pair[1].run) == drawn) for pair in pairs if read_localization(*pair) is None
-    ]
+def _localize(pairs: Sequence[tuple[ReproductionJob, ReproductionJob]], workers: int, progress: Progress) -> None:
+    missing = [pair for pair in pairs if read_localization(*pair) is None]
     for done in _run_in_processes(localize, missing, workers):
         progress("localize", done, len(missing))
 
@@ -130,17 +129,25 @@ def _measure_reranked(
         progress("re-rank", done, len(missing))
 
 
+def _draw_figure_3(pairs: Sequence[tuple[ReproductionJob, ReproductionJob]]) -> None:
+    """Draw figure 3 if its retrievers are among the pairs with HEAD, and one was measured since it was drawn."""
+    pair_by_run = {job.run: (job, fine_job) for job, fine_job in pairs}
+    if not pair_by_run.keys() >= set(FIGURE_3_RUNS.values()):
+        return
+    drawn = {name: pair_by_run[run] for name, run in FIGURE_3_RUNS.items()}
+    mncl_job, head_job = pair_by_run[MNCL]
+    path, measured = mncl_job.directory / FIGURE_3, [localization_file(*pair) for pair in drawn.values()]
+    if not path.is_file() or path.stat().st_mtime < max(file.stat().st_mtime for file in measured):
+        jobs = {name: job for name, (job, _) in drawn.items()}
+        list(_run_in_processes(draw_figure_3_of, [(jobs, head_job, path)], 1))
+
+
 def figure_3_path(
-    data: Path,
-    out: Path,
-    scale: TrainingScale,
-    seed: int,
-    experiments: tuple[Experiment, ...],
+    data: Path, out: Path, scale: TrainingScale, seed: int, experiments: tuple[Experiment, ...]
 ) -> Path | None:
-    """Return the picture of MNCL's retrieved cells; None if it was not made with these experiments and scale."""
-    job, fine_job = (ReproductionJob.build(run, seed, data, out, scale) for run in (MNCL, HEAD))
-    made = (MNCL, HEAD) in fine_pairs(experiments) and read_localization(job, fine_job) is not None
-    return job.directory / FIGURE_3 if made else None
+    """Return the picture that `reproduce` drew of retrieved cells; None if these experiments have none."""
+    path = ReproductionJob.build(MNCL, seed, data, out, scale).directory / FIGURE_3
+    return path if {(run, HEAD) for run in FIGURE_3_RUNS.values()} <= set(fine_pairs(experiments)) else None
 
 
 def _gpu(n: int) -> int | None:

@@ -4,9 +4,7 @@ import pytest
 import torch
 
 from index.evaluation.reproduction import jobs as module
-from index.evaluation.reproduction.figures import draw_figure_3
 from index.evaluation.reproduction.jobs import ALL_LEVELS, GLOBAL_ONLY, RERANKED, Z_SCORES, ReproductionJob
-from models.paper.fine.regressor import Regressor, RegressorConfig
 from models.paper.mncl import Mncl, MnclConfig
 from models.training.experiments import TrainingRun, TrainingScale
 
@@ -19,14 +17,6 @@ def test_rankings_are_of_one_model_by_each_way(text_encoder, osm_file) -> None:
     assert list(rankings) == [GLOBAL_ONLY, RERANKED, ALL_LEVELS, Z_SCORES]
     assert rankings[GLOBAL_ONLY] == rankings[ALL_LEVELS], "the other levels weigh nothing"
     assert rankings[Z_SCORES] != rankings[ALL_LEVELS]
-
-
-def test_figure_3_is_drawn(data_and_queries, model, text_encoder, tmp_path) -> None:
-    torch.manual_seed(0)
-    refiner = Regressor(text_encoder, RegressorConfig(width=32)).eval()
-    data, queries = data_and_queries
-    draw_figure_3(data, queries, module._localizer(data, model, refiner=refiner), tmp_path / "figure3.png")
-    assert (tmp_path / "figure3.png").stat().st_size > 50_000
 
 
 @pytest.mark.parametrize("method", ["mncl", "matching"])
