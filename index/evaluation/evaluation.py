@@ -43,10 +43,7 @@ def evaluate(
     if queries.hints is not None:
         report("match hints", 0, 0)
         predictions.facts["ambiguity"] = ambiguity(data, queries, queries.hints)
-    grown = [
-        (radius, predict(*part, restrict_localizer(localizer, part[0], rows), report))
-        for radius, part, rows in grow_gallery(data, queries, grow_m)
-    ]
+    grown = _predict_growth(data, queries, localizer, grow_m, None, report)
     if report_dir:
         save_run(report_dir, predictions, grown)
         return rescore(report_dir)
@@ -102,13 +99,35 @@ def predict(data: MapData, queries: Queries, localizer: CellLocalizer, progress:
     )
 
 
+def evaluate_growth(
+    data: MapData, queries: Queries, localizer: CellLocalizer, radii_m: Sequence[float], scene: str
+) -> list[dict[str, Any]]:
+    """Return the reports of a gallery that grows in one scene (`grow_gallery`), as "growth" in that of `evaluate`."""
+    return _growth_report(_predict_growth(data, queries, localizer, radii_m, scene, lambda *_: None))
+
+
+def _predict_growth(
+    data: MapData,
+    queries: Queries,
+    localizer: CellLocalizer,
+    radii_m: Sequence[float],
+    scene: str | None,
+    progress: Progress,
+) -> list[tuple[float, Predictions]]:
+    return [
+        (radius, predict(*part, restrict_localizer(localizer, part[0], rows), progress))
+        for radius, part, rows in grow_gallery(data, queries, radii_m, scene)
+    ]
+
+
 def grow_gallery(
-    data: MapData, queries: Queries, radii_m: Sequence[float]
+    data: MapData, queries: Queries, radii_m: Sequence[float], only_scene: str | None = None
 ) -> list[tuple[float, tuple[MapData, Queries], npt.NDArray[np.intp]]]:
     """Build galleries that grow around the same queries (the scalability protocol of MNCL, figure 5).
 
-    The gallery has every cell within a radius of the middle of its scene's queries. The queries are those whose best
-    cell lies within the smallest radius. Return for each radius, ascending: the radius, gallery and queries, and the
+    The gallery has every cell within a radius of the middle of its scene's queries, of all scenes or of one, as in the
+    paper. There it is the middle of the trajectory, which data sets do not have. The queries are those whose best cell
+    lies within the smallest radius. Return for each radius, ascending: the radius, gallery and queries, and the
     gallery's rows in `data`.
     """
     if not radii_m:
@@ -118,7 +137,7 @@ def grow_gallery(
         raise DataError(f"grow: {radii[0]:g} m is not a valid radius; give metres above 0, such as 200,300,400,500")
     cells, known = data.cells, np.flatnonzero(queries.truth >= 0)
     away = np.full(len(cells), np.inf)
-    for scene in sorted(set(queries.scenes)):
+    for scene in [only_scene] if only_scene else sorted(set(queries.scenes)):
         scene_queries = known[np.array(queries.scenes)[known] == scene]
         in_scene = np.array(cells.scenes) == scene
         if len(scene_queries):
@@ -167,7 +186,11 @@ def rescore(report_dir: Path) -> dict[str, Any]:
 def _report(predictions: Predictions, grown: Sequence[tuple[float, Predictions]]) -> dict[str, Any]:
     report = score(predictions)
     if grown:
-        names = ("cells", "queries", "retrieval", "localization", "intervals")
-        parts = [(radius, score(part)) for radius, part in grown]
-        report["growth"] = [{"radius_m": radius} | {name: part[name] for name in names} for radius, part in parts]
+        report["growth"] = _growth_report(grown)
     return report
+
+
+def _growth_report(grown: Sequence[tuple[float, Predictions]]) -> list[dict[str, Any]]:
+    names = ("cells", "queries", "retrieval", "localization", "intervals")
+    parts = [(radius, score(part)) for radius, part in grown]
+    return [{"radius_m": radius} | {name: part[name] for name in names} for radius, part in parts]

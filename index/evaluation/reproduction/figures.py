@@ -133,26 +133,38 @@ def _legend(colours: Mapping[str, str]) -> list[Artist]:
     ]
 
 
-def draw_figure_4(path: Path, titles: Sequence[str], curves: Sequence[Sequence[Numbers]]) -> None:
-    """Write a PNG with one plot per title; each point is [seeds, metrics] recall, of which the first seed is drawn."""
-    figure = Figure(figsize=(4.5 * len(titles), 3.8), layout="constrained", dpi=DPI)
-    for axes, title, points in zip(figure.subplots(1, len(titles), squeeze=False)[0], titles, curves, strict=True):
+def draw_figure_4(path: Path, x_labels: Sequence[str], curves: Sequence[Sequence[tuple[Numbers, Numbers]]]) -> None:
+    """Write a PNG with one plot per label of the x axis; its points have x = 0, 1, 2 and so on.
+
+    A point is the recall [seeds, metrics] on test and on validation scenes, of which the first seed is drawn.
+    """
+    figure = Figure(figsize=(4.5 * len(x_labels), 3.8), layout="constrained", dpi=DPI)
+    for axes, x_label, points in zip(
+        figure.subplots(1, len(x_labels), squeeze=False)[0], x_labels, curves, strict=True
+    ):
         for n, k in enumerate(RETRIEVAL_KS):
-            axes.plot(range(len(points)), [point[0, n] for point in points], marker="o", label=f"R@{k}")
-        axes.set(ylabel="retrieval recall", ylim=(0, 1), xticks=range(len(points)))
-        axes.set_xlabel(title.removeprefix("Figure 4: "), fontsize=8)
+            for split, style in enumerate(("o-", "o--")):
+                recalls = [point[split][0, n] for point in points]
+                label = f"R@{k}" + (", validation" if split else "")
+                axes.plot(recalls, style, color=f"C{n}", ms=4, alpha=0.6 if split else 1, label=label)
+        axes.set(xlabel=x_label, ylabel="retrieval recall", xticks=range(len(points)))
         axes.grid(alpha=0.3)
-        axes.legend(frameon=False)
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=6, frameon=False, fontsize=8)
     FigureCanvasAgg(figure).print_png(path)
 
 
-def draw_figure_5(path: Path, cells: Sequence[int], curves: Sequence[tuple[str, Numbers]]) -> None:
-    """Write a PNG of named curves [seeds, radii] of recall@1 over the number of cells."""
-    figure = Figure(figsize=(5.4, 3.6), layout="constrained", dpi=DPI)
-    axes = figure.subplots()
-    for name, recalls in curves:
-        axes.errorbar(cells, recalls.mean(axis=0), recalls.std(axis=0), marker="o", label=name)
-    axes.set(xlabel="cells in the gallery", ylabel="recall@1, the same queries", ylim=(0, 1))
-    axes.grid(alpha=0.3)
-    axes.legend(frameon=False, fontsize=8)
+def draw_figure_5(path: Path, plots: Mapping[str, tuple[Sequence[int], Sequence[tuple[str, Numbers]]]]) -> None:
+    """Write a PNG with one plot per title: named curves [seeds, radii] of recall@1 over the number of cells."""
+    figure = Figure(figsize=(4.8 * len(plots), 3.8), layout="constrained", dpi=DPI)
+    names = list(dict.fromkeys(name for _, curves in plots.values() for name, _ in curves))
+    all_axes = figure.subplots(1, len(plots), squeeze=False)[0]
+    for axes, (title, (cells, curves)) in zip(all_axes, plots.items(), strict=True):
+        for name, recalls in curves:
+            means, spread, colour = recalls.mean(axis=0), recalls.std(axis=0), f"C{names.index(name)}"
+            axes.errorbar(cells, means, spread, marker="o", capsize=3, color=colour)
+        axes.set(title=title, xlabel="cells in the gallery", ylabel="recall@1, the same queries")
+        axes.set_ylim(bottom=0)
+        axes.grid(alpha=0.3)
+    handles = [Line2D([], [], color=f"C{n}", marker="o", label=name) for n, name in enumerate(names)]
+    figure.legend(handles=handles, loc="outside lower center", ncols=2, frameon=False, fontsize=8)
     FigureCanvasAgg(figure).print_png(path)

@@ -22,7 +22,12 @@ ORDERS = (
     "of its validation split, where it has RET. Undecided: the difference is within the sampling error (95 %) over "
     "seeds and queries, or both rows are at chance."
 )
-FIGURE_4_KEYS = ("4a", "4b")
+FIGURE_4_AXES = {"4a": "layers m", "4b": "exponent a"}
+GROWTH_NOTE = (
+    "The same queries in a gallery of the cells within a radius. A scene's centre is the query position nearest to the "
+    "mean of all of them; the paper's is the centre of the trajectory, which the data do not have. All test scenes: "
+    "each round its own centre, in one gallery."
+)
 Results = dict[str, Any]
 DEVIATES_OF_95_PERCENT = 1.96  # standard errors on either side of an estimate
 Numbers = np.ndarray[Any, np.dtype[np.float64]]
@@ -38,14 +43,16 @@ def write_reproduction(directory: Path, results: Results, name: str, figure_3: P
     results = results | {"figure_3": figure_3 is not None}
     (directory / "results.json").write_text(json.dumps(results, indent=1) + "\n")
     (directory / "report.md").write_text(markdown(results, name))
-    curves = [experiment for experiment in chosen_experiments(results) if experiment.key in FIGURE_4_KEYS]
+    curves = [experiment for experiment in chosen_experiments(results) if experiment.key in FIGURE_4_AXES]
     if curves:
-        recalls = [[_recalls(row, variant, results)[0] for row, variant in e.row_variants()] for e in curves]
-        draw_figure_4(directory / "figure4.png", [e.title for e in curves], recalls)
+        recalls = [[_recalls(row, variant, results) for row, variant in e.row_variants()] for e in curves]
+        draw_figure_4(directory / "figure4.png", [FIGURE_4_AXES[e.key] for e in curves], recalls)
     if grown := _growth_curves(results):
-        draw_figure_5(directory / "figure5.png", [row["cells"] for row in grown[0][2][0]], [
-            (name, np.array([[row["R@1"] for row in rows] for rows in by_seed])) for name, _, by_seed in grown
-        ])  # fmt: skip
+        draw_figure_5(directory / "figure5.png", {
+            title: ([row["cells"] for row in of_form[0][2][0]], [
+                (name, np.array([[row["R@1"] for row in rows] for rows in by_seed])) for name, _, by_seed in of_form
+            ]) for title, of_form in grown.items()
+        })  # fmt: skip
 
 
 def chosen_experiments(results: Results) -> list[Experiment]:
@@ -56,11 +63,12 @@ def chosen_experiments(results: Results) -> list[Experiment]:
 def markdown(results: Results, name: str) -> str:
     """Return the report as a page."""
     parts = [f"# The paper's tables and figures on {name}", *_head(results)]
+    last_curve = next((e for e in reversed(chosen_experiments(results)) if e.key in FIGURE_4_AXES), None)
     for experiment in chosen_experiments(results):
         parts += [f"## {experiment.title}", *([experiment.note] if experiment.note else [])]
         parts.append(as_markdown(_table(experiment, results)))
-        if experiment.key == FIGURE_4_KEYS[-1]:
-            parts.append("![figure 4](figure4.png)")
+        if experiment.key in FIGURE_4_AXES and experiment is last_curve:
+            parts.append("Dashed: validation. ![figure 4](figure4.png)")
     if results["figure_3"]:
         parts += [
             "## Figure 3: queries and what is retrieved",
@@ -68,8 +76,9 @@ def markdown(results: Results, name: str) -> str:
             "is positive (green) if it contains the true position, as in the paper. Numbers are the error of the "
             "position that the papers' head predicts in the cell. ![figure 3](figure3.png)",
         ]
-    if _growth_curves(results):
-        parts += ["## Figure 5: a growing gallery", as_markdown(_growth_table(results)), "![figure 5](figure5.png)"]
+    if grown := _growth_curves(results):
+        parts += ["## Figure 5: a growing gallery", GROWTH_NOTE]
+        parts += [as_markdown(_growth_table(*form)) for form in grown.items()] + ["![figure 5](figure5.png)"]
     if (orders := _orders_table(results))[1]:
         parts += ["## Does the order hold?", ORDERS, as_markdown(orders)]
     if rankings := _ranking_rows(results):
@@ -207,23 +216,25 @@ def _first_figures(worse: TableRow, better: TableRow, variant: str, results: Res
     return below, above
 
 
-def _growth_curves(results: Results) -> list[tuple[str, str, list[list[dict[str, Any]]]]]:
-    """Return name, published figures and rows [seeds] of each curve of figure 5 that was made."""
-    curves = [
-        (f"{name}, {variant}", published, apply_variant(run, variant))
-        for name, (run, published) in GROWTH.items()
-        for variant in VARIANTS
-    ]
-    runs = results["runs"]
-    return [
-        (name, published, [result["growth"] for result in runs[run.name]])
-        for name, published, run in curves
-        if run.name in runs
-    ]
+# Name, published figures, and rows [seeds] of a curve of figure 5
+GrowthCurve = tuple[str, str, list[list[dict[str, Any]]]]
 
 
-def _growth_table(results: Results) -> Table:
-    grown = _growth_curves(results)
+def _growth_curves(results: Results) -> dict[str, list[GrowthCurve]]:
+    """Return the curves of figure 5 that were made: of one scene, as in the paper, and of all test scenes."""
+    curves: dict[str, list[GrowthCurve]] = {}
+    for form in ("growth_of_scene", "growth"):
+        for name, (run, published) in GROWTH.items():
+            for variant in VARIANTS:
+                by_seed = results["runs"].get(apply_variant(run, variant).name, [])
+                if by_seed and all(form in result for result in by_seed):  # older results have the second form alone
+                    rows = [result[form] for result in by_seed]
+                    title = f"scene {rows[0][0]['scene']}" if "scene" in rows[0][0] else "all test scenes"
+                    curves.setdefault(title, []).append((f"{name}, {variant}", published, rows))
+    return curves
+
+
+def _growth_table(form: str, grown: Sequence[GrowthCurve]) -> Table:
     rows: list[tuple[str, ...]] = []
     for name, published, by_seed in grown:
         recalls = np.mean([[row["R@1"] for row in rows_] for rows_ in by_seed], axis=0)
@@ -232,7 +243,7 @@ def _growth_table(results: Results) -> Table:
     first = grown[0][2][0]
     head = (f"{row['radius_m']:g} m, {row['cells']} cells" for row in first)
     return (
-        f"R@1 of the same {first[0]['queries']} queries within",
+        f"R@1 of {form}, {first[0]['queries']} queries, within",
         *head,
         "against the first",
         "against the first" + PUBLISHED,

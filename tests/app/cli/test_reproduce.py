@@ -9,6 +9,7 @@ from app.cli.reproduce import _override
 from models.errors import DataError
 from models.sources.source import open_source
 from models.training.experiments import SCALES
+from models.training.paper_tables import TABLE_2
 from models.training.settings import load_settings
 
 SCALE = SCALES["demo"]
@@ -77,9 +78,9 @@ def test_a_dry_run_lists_trainings_and_writes_nothing(tmp_path) -> None:
     options = ("--tables", "2", "--seeds", "0,1", "--workers", "3", "--dry-run")
     result = CliRunner().invoke(app, ["reproduce", "--out", str(out), *options])
     assert result.exit_code == 0, result.output
-    rows = result.output.splitlines()
-    assert [row.split()[-1] for row in rows[:-1]] == ["missing"] * 21, "five rows, two inputs, two seeds, points"
-    assert "21 trainings, 21 missing: about" in rows[-1]
+    rows, trainings = result.output.splitlines(), 1 + 2 * 2 * len({row.run for row in TABLE_2.rows})  # 1 for points
+    assert [row.split()[-1] for row in rows[:-1]] == ["missing"] * trainings
+    assert f"{trainings} trainings, {trainings} missing: about" in rows[-1]
     assert "shared by 3 workers" in rows[-1]
     assert not out.exists()
     result = CliRunner().invoke(app, ["reproduce", "--out", str(out), *options, "--epochs", "2"])

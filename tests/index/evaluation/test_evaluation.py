@@ -6,7 +6,7 @@ import pytest
 
 from index.answering.ranking import Ranker
 from index.evaluation.ambiguity import ambiguity
-from index.evaluation.evaluation import evaluate, grow_gallery, rescore
+from index.evaluation.evaluation import evaluate, evaluate_growth, grow_gallery, rescore
 from index.evaluation.localizers import vectors_of_map
 from index.evaluation.predictions import PREDICTIONS_FILE, Predictions
 from index.evaluation.scoring import score
@@ -98,6 +98,39 @@ def test_a_growing_gallery_asks_the_same_queries(report, data_and_queries) -> No
         for query_sentences in part.sentences
     ]
     assert [data.cells.ids[n] for n in rows] == list(small.cells.ids)
+
+
+def test_a_gallery_grows_in_one_scene_alone(streets, model) -> None:
+    source = open_source(streets, "train")
+    data, queries = source.data, source.queries()
+    scenes = sorted(set(queries.scenes))
+    assert len(scenes) == 2, "which lie over each other"
+    localizer = vectors_of_map(data, Ranker.from_cells(model, data.cells, data.gallery.labels))
+    for scene in scenes:
+        positions = [queries.positions_m[q] for q in range(len(queries)) if queries.scenes[q] == scene]
+        mean = sum(positions) / len(positions)
+        middle = min(positions, key=lambda p: float(np.hypot(*(p - mean))))
+        within = {
+            radius: [
+                n
+                for n in range(len(data.cells))
+                if data.cells.scenes[n] == scene and np.hypot(*(data.cells.center_m[n, :2] - middle)) <= radius
+            ]
+            for radius in (20, 40)
+        }
+        steps = grow_gallery(data, queries, [40, 20], scene)
+        assert {radius: rows.tolist() for radius, _, rows in steps} == within
+        chosen = [
+            queries.sentences[q]
+            for q in range(len(queries))
+            if queries.scenes[q] == scene and queries.truth[q] in within[20]
+        ]
+        assert all(list(part.sentences) == chosen for _, (_, part), _ in steps)
+        report = evaluate_growth(data, queries, localizer, [20, 40], scene)
+        assert [(row["radius_m"], row["cells"], row["queries"]) for row in report] == [
+            (radius, len(rows), len(chosen)) for radius, rows in within.items()
+        ]
+        assert report[0]["retrieval"]["5"] >= report[1]["retrieval"]["5"]
 
 
 @pytest.mark.parametrize(("radii", "message"), [([0], "not a valid radius"), ([1e-6], "larger radius")])

@@ -16,7 +16,7 @@ from matplotlib.text import Text
 from index.answering.query import Query
 from index.evaluation.reproduction import figures as module
 from index.evaluation.reproduction import jobs, reproduce
-from index.evaluation.reproduction.figures import class_colours, contains, draw_figure_3
+from index.evaluation.reproduction.figures import class_colours, contains, draw_figure_3, draw_figure_4, draw_figure_5
 from index.evaluation.reproduction.jobs import FIGURE_3, ReproductionJob, localization_file
 from models.paper.fine.regressor import Regressor, RegressorConfig
 from models.paper.text2loc import Text2Loc, Text2LocConfig
@@ -129,3 +129,29 @@ def test_figure_3_is_drawn_when_a_model_of_it_was_measured(osm_file, tmp_path, m
     assert len(calls) == 2
     assert reproduce.figure_3_path(osm_file, tmp_path, scale, 0, (TABLE_2,)) is None
     assert reproduce.figure_3_path(osm_file, tmp_path, replace(scale), 0, (reproduce.EXPERIMENTS["1"],)).is_file()
+
+
+def test_figure_4_has_curves_of_test_and_validation_scenes(drawn, tmp_path) -> None:
+    rng = np.random.default_rng(0)
+    curves = [[(rng.random((2, 3)), rng.random((1, 3))) for _ in range(points)] for points in (6, 5)]
+    draw_figure_4(tmp_path / "figure4.png", ["layers m", "exponent a"], curves)
+    for axes, label, points in zip(drawn[0].axes, ("layers m", "exponent a"), curves, strict=True):
+        assert axes.get_xlabel() == label
+        for n in range(3):
+            for split, style in enumerate(("-", "--")):
+                line = axes.lines[2 * n + split]
+                assert line.get_linestyle() == style
+                assert line.get_xydata().tolist() == [[x, p[split][0, n]] for x, p in enumerate(points)]
+        low, high = axes.get_ylim()
+        values = [value for point in points for part in point for value in part[0]]
+        assert low <= min(values) <= max(values) <= high
+
+
+def test_figure_5_has_a_plot_of_each_form(drawn, tmp_path) -> None:
+    recalls = np.array([[0.5, 0.3], [0.7, 0.5]])
+    forms = {"scene 0009": ([10, 20], [("M", recalls)]), "all": ([30, 60], [("T", recalls / 2), ("M", recalls)])}
+    draw_figure_5(tmp_path / "figure5.png", forms)
+    one, pooled = drawn[0].axes
+    assert (one.get_title(), pooled.get_title()) == tuple(forms)
+    assert one.lines[0].get_xydata() == pytest.approx(np.array([[10, 0.6], [20, 0.4]]))
+    assert one.lines[0].get_color() == pooled.lines[3].get_color() != pooled.lines[0].get_color()

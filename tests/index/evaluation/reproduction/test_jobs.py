@@ -4,7 +4,14 @@ import pytest
 import torch
 
 from index.evaluation.reproduction import jobs as module
-from index.evaluation.reproduction.jobs import ALL_LEVELS, GLOBAL_ONLY, RERANKED, Z_SCORES, ReproductionJob
+from index.evaluation.reproduction.jobs import (
+    ALL_LEVELS,
+    GLOBAL_ONLY,
+    RERANKED,
+    Z_SCORES,
+    ReproductionJob,
+    scene_of_figure_5,
+)
 from models.paper.mncl import Mncl, MnclConfig
 from models.training.experiments import TrainingRun, TrainingScale
 
@@ -17,6 +24,11 @@ def test_rankings_are_of_one_model_by_each_way(text_encoder, osm_file) -> None:
     assert list(rankings) == [GLOBAL_ONLY, RERANKED, ALL_LEVELS, Z_SCORES]
     assert rankings[GLOBAL_ONLY] == rankings[ALL_LEVELS], "the other levels weigh nothing"
     assert rankings[Z_SCORES] != rankings[ALL_LEVELS]
+
+
+def test_figure_5_is_of_the_papers_scene_if_there_is_one() -> None:
+    assert scene_of_figure_5(["0003", "2013_05_28_drive_0009_sync", "0005", "0003"]) == "2013_05_28_drive_0009_sync"
+    assert scene_of_figure_5(["town-b", "town-a"]) == "town-a"
 
 
 @pytest.mark.parametrize("method", ["mncl", "matching"])

@@ -36,7 +36,7 @@ def test_a_plan_has_every_training_and_says_which_are_done(osm_file, tmp_path, m
     monkeypatch.setattr(module, "MEASURED", measured)
     planned = plan_runs(None, tmp_path, SCALE, [0, 1], (TABLE_2,))
     names = [(run.name, run.seed) for run in planned]
-    assert len(set(names)) == len(names) == 1 + 2 * 2 * len(TABLE_2.rows)
+    assert len(set(names)) == len(names) == 1 + 2 * 2 * len({row.run for row in TABLE_2.rows})
     assert names[0] == (POINTS, 0)
     assert not any(run.is_done for run in planned)
     assert planned[0].steps == 50

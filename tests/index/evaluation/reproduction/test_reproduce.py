@@ -78,6 +78,8 @@ def test_what_is_done_is_kept_and_what_differs_is_made_again(small, strip_file, 
     assert 0 <= result["retrieval"]["1"] <= result["retrieval"]["5"] <= 1
     assert result["training"]["seconds"] >= result["training"]["seconds_to_best"] > 0
     assert len(result["growth"]) == 2
+    one_scene = [row | {"scene": "strip"} for row in result["growth"]]
+    assert result["growth_of_scene"] == one_scene, "a map has one scene"
     assert set(result["localization"]["regressor"]) == {"test", "val", "cell_center"}
     assert set(result["reranked"]) == {"", "regressor"}
     for by_split in result["reranked"].values():
@@ -190,7 +192,13 @@ def made_up(run: TrainingRun, seed: int) -> dict[str, object]:
     return (
         result
         | measured
-        | {"growth": grown, "localization": stages, "reranked": reranked, "rankings": {"global level alone": recall}}
+        | {
+            "growth": grown,
+            "growth_of_scene": [{"scene": "0009"} | row for row in grown],
+            "localization": stages,
+            "reranked": reranked,
+            "rankings": {"global level alone": recall},
+        }
     )
 
 
@@ -223,6 +231,8 @@ def test_the_report_has_every_table_and_says_where_the_orders_hold(tmp_path) -> 
     )
     assert "| Figure 4 | 3 layers above 5 layers | our inputs | yes | 1 of 1 | 0.300 |" in text
     assert "-50.0 %" in text
+    assert "| R@1 of scene 0009, 5 queries, within |" in text
+    assert "| R@1 of all test scenes, 5 queries, within |" in text
     hours = sum(len(results) for results in found_of(0, 1)["runs"].values()) * 90 / 3600
     assert f"{hours:.1f} hours of training" in text
     assert "| 40, best of validation | 64 | 32 | 0.001, one-cycle | minilm | published |" in text
@@ -261,6 +271,17 @@ def test_a_report_of_some_tables_has_no_others(tmp_path) -> None:
     assert "Does the order hold?" in text
     assert not list(tmp_path.glob("figure[34].png")), "those of an earlier report"
     assert {name for name in GROWTH if f"| {name}, our inputs | " in text} == set(GROWTH)
+
+
+def test_results_without_the_growth_of_one_scene_are_shown(tmp_path) -> None:
+    """An earlier version made them."""
+    older = found_of(0)
+    for by_seed in older["runs"].values():
+        by_seed[0].pop("growth_of_scene", None)
+    write_reproduction(tmp_path, older, "nowhere")
+    text = (tmp_path / "report.md").read_text()
+    assert "scene 0009" not in text
+    assert "| R@1 of all test scenes, 5 queries, within |" in text
 
 
 def test_costs_are_those_of_a_typical_seed() -> None:
