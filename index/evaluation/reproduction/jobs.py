@@ -5,6 +5,7 @@ import json
 import resource
 import shutil
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
@@ -29,6 +30,7 @@ from models.paper.fine.checkpoint import FINE_METHODS, load_fine
 from models.paper.fine.fine_model import FineModel
 from models.paper.retriever import Retriever
 from models.sources.source import VALIDATION_SEED, open_sources
+from models.training.engine.devices import on_device
 from models.training.engine.loop import pick_device
 from models.training.engine.run_dir import METRICS_FILE
 from models.training.experiments import POINTS, VARIANTS, TrainingRun, TrainingScale, apply_variant
@@ -134,9 +136,7 @@ def _read_result(path: Path, key: str) -> dict[str, Any] | None:
 
 def train_and_measure(job: ReproductionJob, gpu: int | None) -> None:
     """Train and measure a job; results of other settings are removed. `gpu` serves the devices "auto" and "cuda"."""
-    torch.set_num_threads(1)  # so that weights do not depend on the number of processors
-    if gpu is not None:
-        torch.cuda.set_device(gpu)
+    _set_up_process(gpu)
     key = job.directory / "key"
     if job.directory.is_dir() and not (key.is_file() and key.read_text() == job.key):
         shutil.rmtree(job.directory)
@@ -197,15 +197,34 @@ def _criterion(run: TrainingRun) -> str:
     return "label" if run.method == POINTS else "within_5m" if run.method in FINE_METHODS else "recall5"
 
 
+def _set_up_process(gpu: int | None) -> None:
+    torch.set_num_threads(1)  # so that weights do not depend on the number of processors
+    if gpu is not None:
+        torch.cuda.set_device(gpu)
+
+
+@contextmanager
+def _on_device_of(job: ReproductionJob, *models: Retriever | FineModel | None) -> Iterator[None]:
+    """Move models and their text encoders to the device that the job is trained on, and back at the end."""
+    modules = [module for model in models if model for module in (model, model.text_encoder)]
+    with on_device(pick_device(job.settings()[1].device), *modules):
+        yield
+
+
 def _measure_retriever(job: ReproductionJob, weights: Path) -> dict[str, Any]:
     retriever = load_retriever(weights)
+    with _on_device_of(job, retriever):
+        return _measure(job, retriever, _training_record(weights)["sources"][0]["validation"]["retrieval"])
+
+
+def _measure(job: ReproductionJob, retriever: Retriever, validation: dict[str, float]) -> dict[str, Any]:
     [(data, queries)] = open_queries(job.data, TEST)
     localizer = _localizer(data, retriever)
     grown = job.run in GROWTH_RUNS
     report = evaluate(data, queries, localizer, grow_m=job.scale.growth_radii_m if grown else ())
     result = {
         "retrieval": report["retrieval"],
-        "validation_retrieval": _training_record(weights)["sources"][0]["validation"]["retrieval"],
+        "validation_retrieval": validation,
         "calibration_error": report["calibration"]["expected_calibration_error"],
         "bytes_a_cell": 4 * retriever.config.width + localizer.ranker.table.bytes_per_cell,
         "parameters": sum(p.numel() for p in retriever.parameters()),
@@ -247,18 +266,18 @@ def _rankings(retriever: Retriever, data: Path) -> dict[str, dict[str, float]]:
     return result
 
 
-def localize(job: ReproductionJob, fine_job: ReproductionJob) -> None:
+def localize(job: ReproductionJob, fine_job: ReproductionJob, gpu: int | None) -> None:
     """Measure localization with a fine stage and at the centres of the cells, and save it with the retriever's result.
 
-    Both on test and validation scenes.
+    Both on test and validation scenes; `gpu` as in `train_and_measure`.
     """
-    torch.set_num_threads(1)
+    _set_up_process(gpu)
     retriever, refiner = load_retriever(job.directory / WEIGHTS_DIR), load_fine(fine_job.directory / WEIGHTS_DIR)
     result: dict[str, Any] = {AT_CENTER: {}}
-    for split, (data, queries) in zip(MEASURED_SPLITS, open_queries(job.data, *MEASURED_SPLITS), strict=True):
-        localizer = _localizer(data, retriever, refiner=refiner)
-        report = evaluate(data, queries, localizer)
-        result[split], result[AT_CENTER][split] = report["localization"], report[AT_CENTER]
+    with _on_device_of(job, retriever, refiner):
+        for split, (data, queries) in zip(MEASURED_SPLITS, open_queries(job.data, *MEASURED_SPLITS), strict=True):
+            report = evaluate(data, queries, _localizer(data, retriever, refiner=refiner))
+            result[split], result[AT_CENTER][split] = report["localization"], report[AT_CENTER]
     record = {"key": job.key + fine_job.key, "localization": result}
     replace_file(localization_file(job, fine_job), json.dumps(record).encode())
 
@@ -271,12 +290,13 @@ def read_localization(job: ReproductionJob, fine_job: ReproductionJob) -> dict[s
 
 def draw_figure_3_of(jobs: dict[str, ReproductionJob], fine_job: ReproductionJob, path: Path) -> None:
     """Draw figure 3 on the test scenes with the retrievers of `jobs`, by name, and one fine stage."""
-    torch.set_num_threads(1)
+    _set_up_process(None)
     refiner = load_fine(fine_job.directory / WEIGHTS_DIR)
     [(data, queries)] = open_queries(fine_job.data, TEST)
     retrievers = {name: load_retriever(job.directory / WEIGHTS_DIR) for name, job in jobs.items()}
-    localizers = {name: _localizer(data, retriever, refiner=refiner) for name, retriever in retrievers.items()}
-    draw_figure_3(data, queries, localizers, path)
+    with _on_device_of(fine_job, refiner, *retrievers.values()):
+        localizers = {name: _localizer(data, retriever, refiner=refiner) for name, retriever in retrievers.items()}
+        draw_figure_3(data, queries, localizers, path)
 
 
 def localization_file(job: ReproductionJob, fine_job: ReproductionJob) -> Path:
@@ -284,18 +304,19 @@ def localization_file(job: ReproductionJob, fine_job: ReproductionJob) -> Path:
     return job.directory / f"localization-{fine_job.run.name}.json"
 
 
-def measure_reranked(job: ReproductionJob, fine_job: ReproductionJob | None) -> None:
+def measure_reranked(job: ReproductionJob, fine_job: ReproductionJob | None, gpu: int | None) -> None:
     """Measure retrieval, and localization with a fine stage or at the centres, of re-ranked cells, and save it.
 
-    Both on test and validation scenes.
+    Both on test and validation scenes; `gpu` as in `train_and_measure`.
     """
-    torch.set_num_threads(1)
+    _set_up_process(gpu)
     retriever = load_retriever(job.directory / WEIGHTS_DIR)
     refiner = load_fine(fine_job.directory / WEIGHTS_DIR) if fine_job else None
     result: dict[str, Any] = {}
-    for split, (data, queries) in zip(MEASURED_SPLITS, open_queries(job.data, *MEASURED_SPLITS), strict=True):
-        report = evaluate(data, queries, _localizer(data, retriever, refiner=refiner, rerank="parc"))
-        result[split] = {name: report[name] for name in ("retrieval", "localization", "calibration")}
+    with _on_device_of(job, retriever, refiner):
+        for split, (data, queries) in zip(MEASURED_SPLITS, open_queries(job.data, *MEASURED_SPLITS), strict=True):
+            report = evaluate(data, queries, _localizer(data, retriever, refiner=refiner, rerank="parc"))
+            result[split] = {name: report[name] for name in ("retrieval", "localization", "calibration")}
     record = {"key": _reranked_key(job, fine_job), "reranked": result}
     replace_file(_reranked_file(job, fine_job), json.dumps(record).encode())
 

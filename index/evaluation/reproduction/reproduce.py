@@ -111,13 +111,13 @@ def reproduce(
 
 def _train(stage: str, jobs: Sequence[ReproductionJob], workers: int, progress: Progress) -> None:
     missing = [job for job in jobs if job.result() is None]
-    for done in _run_in_processes(train_and_measure, [(job, _gpu(n)) for n, job in enumerate(missing)], workers):
+    for done in _run_in_processes(train_and_measure, _on_gpus([(job,) for job in missing]), workers):
         progress(stage, len(jobs) - len(missing) + done, len(jobs))
 
 
 def _localize(pairs: Sequence[tuple[ReproductionJob, ReproductionJob]], workers: int, progress: Progress) -> None:
     missing = [pair for pair in pairs if read_localization(*pair) is None]
-    for done in _run_in_processes(localize, missing, workers):
+    for done in _run_in_processes(localize, _on_gpus(missing), workers):
         progress("localize", done, len(missing))
 
 
@@ -125,7 +125,7 @@ def _measure_reranked(
     pairs: Sequence[tuple[ReproductionJob, ReproductionJob | None]], workers: int, progress: Progress
 ) -> None:
     missing = [pair for pair in pairs if read_reranked(*pair) is None]
-    for done in _run_in_processes(measure_reranked, missing, workers):
+    for done in _run_in_processes(measure_reranked, _on_gpus(missing), workers):
         progress("re-rank", done, len(missing))
 
 
@@ -150,8 +150,10 @@ def figure_3_path(
     return path if {(run, HEAD) for run in FIGURE_3_RUNS.values()} <= set(fine_pairs(experiments)) else None
 
 
-def _gpu(n: int) -> int | None:
-    return n % torch.cuda.device_count() if torch.cuda.is_available() else None
+def _on_gpus(tasks: Sequence[tuple[Any, ...]]) -> list[tuple[Any, ...]]:
+    """Return the tasks with the number of a GPU each, in turn; None without one."""
+    gpus = torch.cuda.device_count() if torch.cuda.is_available() else 0
+    return [(*task, n % gpus if gpus else None) for n, task in enumerate(tasks)]
 
 
 def _run_in_processes(work: Callable[..., None], tasks: Sequence[tuple[Any, ...]], workers: int) -> Iterator[int]:

@@ -1,4 +1,4 @@
-"""All training on a device that does not mix with the CPU; test_devices.py runs this in a process of its own."""
+"""All training and measuring on a device that does not mix with the CPU; test_devices.py runs it in its own process."""
 
 import json
 import sys
@@ -14,10 +14,12 @@ import torch
 from torch import nn
 from torch.nn.utils.rnn import pack_padded_sequence
 
+from index.evaluation.reproduction import jobs
+from index.evaluation.reproduction.jobs import ReproductionJob
 from models.language.text_encoder import load_text_encoder
 from models.paper import point_encoder
-from models.paper.checkpoint import METHODS, load_retriever
-from models.paper.fine.checkpoint import FINE_METHODS, load_fine
+from models.paper.checkpoint import METHODS, load_retriever, save_retriever
+from models.paper.fine.checkpoint import FINE_METHODS, load_fine, save_fine
 from models.paper.instance_encoder import DEFAULT_INPUTS, PAPER_INPUTS, Input
 from models.paper.point_encoder import PointLayers
 from models.posterior.model import PosteriorConfig, PosteriorModel, load_posterior
@@ -25,6 +27,8 @@ from models.sources.source import open_source
 from models.training import fit_fine, fit_points, fit_retriever, validation
 from models.training.engine import loop
 from models.training.engine.devices import on_device
+from models.training.experiments import TrainingRun, TrainingScale
+from models.training.paper_tables import MNCL
 from models.training.posterior import fit_posterior
 from models.training.posterior.fit_reader import ReadingSet
 from models.training.settings import TrainingConfig
@@ -87,6 +91,21 @@ def shared_points(sources: Any, out: Path) -> None:
     given = CONFIG.model_copy(update={"points": out / "points"})
     config = METHODS["text2loc"].config_type(width=32, inputs=PAPER_INPUTS)
     fit_retriever.train_retriever(partial(load, sources), out, METHODS["text2loc"], config, given)
+
+
+def measuring(sources: Any, osm_file: Path, out: Path) -> None:
+    """Growth, rankings and localization of a reproduction, as far as models are asked."""
+    scale = TrainingScale(("model.width=32",), ("model.width=32",), (60.0, 120.0))
+    job, fine_job = (ReproductionJob(run, 0, osm_file, out, scale, "key") for run in (MNCL, TrainingRun("regressor")))
+    encoder, record = load_text_encoder(), {"sources": [{"validation": {"retrieval": {}}}]}
+    save_retriever(METHODS["mncl"](encoder, job.settings()[0]), job.directory / jobs.WEIGHTS_DIR, record)
+    save_fine(FINE_METHODS["regressor"](encoder, fine_job.settings()[0]), fine_job.directory / jobs.WEIGHTS_DIR, record)
+    parts = [(source.data, replace(source.queries(), hints=None)) for source in sources]
+    jobs.open_queries = lambda _, *splits: iter(parts[: len(splits)])
+    assert jobs._measure_retriever(job, job.directory / jobs.WEIGHTS_DIR)["growth"]
+    jobs.localize(job, fine_job, None)
+    jobs.measure_reranked(job, fine_job, None)
+    assert jobs.read_localization(job, fine_job)
 
 
 def posterior(sources: Any, out: Path) -> None:
@@ -171,7 +190,7 @@ def tried(run: Callable[[], None]) -> str:
 
 def main(osm_file: Path, out: Path) -> None:
     """Run everything; out/report.json says of each what went wrong."""
-    for module in (loop, fit_retriever, fit_fine, fit_points, fit_posterior):
+    for module in (loop, fit_retriever, fit_fine, fit_points, fit_posterior, jobs):
         module.pick_device = lambda wanted: CPU if wanted == "cpu" else FAKE
     for module, values in SMALL.items():
         for name, value in values.items():
@@ -183,6 +202,7 @@ def main(osm_file: Path, out: Path) -> None:
         cases[name] = partial(train, sources, method, inputs, out / name)
     cases["trained-points"] = partial(trained_points, sources, out / "trained-points")
     cases["points"] = partial(shared_points, sources, out / "points")
+    cases["measuring"] = partial(measuring, sources, osm_file, out / "measuring")
     cases["posterior"] = partial(posterior, sources, out / "posterior")
     (out / "report.json").write_text(json.dumps({name: tried(run) for name, run in cases.items()}))
 

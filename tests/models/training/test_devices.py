@@ -28,6 +28,7 @@ NAMES = [
     "matching-points",
     "trained-points",
     "points",
+    "measuring",
     "posterior",
 ]
 
