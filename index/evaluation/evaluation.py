@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from index.answering.query import Query
 from index.answering.result import CellLocalizer
+from index.answering.vector_localizer import VectorLocalizer
 from index.evaluation.ambiguity import ambiguity
 from index.evaluation.localizers import restrict_localizer
 from index.evaluation.predictions import PREDICTIONS_FILE, Predictions
@@ -19,6 +20,8 @@ from models.citymap.gallery import MapData
 from models.citymap.queries import Queries
 from models.citymap.types import Floats, Progress
 from models.errors import DataError
+from models.language.text_encoder import DEFAULT_TEXT_ENCODER
+from models.training.engine.feature_cache import frozen_features
 from models.training.metrics import LOCALIZATION_KS, RETRIEVAL_KS
 
 STORED_CELLS = 25  # per query; the recall curve ends here
@@ -39,6 +42,8 @@ def evaluate(
     With `grow_m`, the radii of a growing gallery, it has predictions for each (`grow_gallery`).
     """
     report = progress or (lambda stage, done, total: None)
+    if isinstance(localizer, VectorLocalizer):
+        _read_cached_features(queries, localizer)
     predictions = predict(data, queries, localizer, report)
     if queries.hints is not None:
         report("match hints", 0, 0)
@@ -50,19 +55,33 @@ def evaluate(
     return _report(predictions, grown)
 
 
+def _read_cached_features(queries: Queries, localizer: VectorLocalizer) -> None:
+    """Give text encoders their features of all queries, from the cache on disk if an earlier evaluation had the same.
+
+    MiniLM is left out: it is fast, and the cache's half precision would change its results.
+    """
+    models = localizer.ranker.retriever, localizer.refiner
+    encoders = {model.text_encoder for model in models if model and model.text_encoder.source != DEFAULT_TEXT_ENCODER}
+    if encoders and len(queries):
+        sentences = sorted({sentence for text in localizer.sentences(_texts(queries)) for sentence in text})
+        for encoder in encoders:
+            encoder.remember(sentences, frozen_features(encoder, sentences))
+
+
+def _texts(queries: Queries) -> list[str]:
+    return ["\n".join(sentences) for sentences in queries.sentences]
+
+
 def predict(data: MapData, queries: Queries, localizer: CellLocalizer, progress: Progress) -> Predictions:
     """Predict cells and positions for each query."""
-    total, listed = len(queries), min(STORED_CELLS, len(data.cells))
+    texts, total, listed = _texts(queries), len(queries), min(STORED_CELLS, len(data.cells))
     ranked, scores = np.full((total, listed), -1, np.int32), np.full((total, listed), -np.inf, np.float32)
     positions = np.zeros((total, min(STORED_POSITIONS, listed), 2))
     probability, radius_m = np.zeros(total), np.full((total, 2), data.cells.extent_m)
     is_retrieved = np.zeros(total, np.bool_)
     for start in range(0, total, QUERIES_PER_BATCH):
         progress("ask", start, total)
-        batch = [
-            Query("\n".join(sentences), top_k=STORED_POSITIONS)
-            for sentences in queries.sentences[start : start + QUERIES_PER_BATCH]
-        ]
+        batch = [Query(text, top_k=STORED_POSITIONS) for text in texts[start : start + QUERIES_PER_BATCH]]
         for q, result in enumerate(localizer.find(batch), start):
             if (located := result.located) is None:
                 continue

@@ -39,6 +39,12 @@ class TokenFeatures:
         """Return the features on a device."""
         return TokenFeatures(self.values.to(device), self.mask.to(device), self.ids.to(device))
 
+    def take(self, rows: Tensor) -> "TokenFeatures":
+        """Return the features of some sentences, padded to the longest of them, as float32."""
+        mask = self.mask[rows]
+        longest = int(mask.sum(dim=1).max())
+        return TokenFeatures(self.values[rows, :longest].float(), mask[:, :longest], self.ids[rows, :longest])
+
 
 class TextEncoder(nn.Module):
     """A frozen language model: MiniLM by default, T5 or Flan-T5 (encoder only) for the paper's setting."""
@@ -53,17 +59,26 @@ class TextEncoder(nn.Module):
         self._ranks: dict[str, int] | None = None
         self._int8_layers: list[Int8Layer] = []  # of the first layers, which are frozen
         self._embeddings: Int8Embeddings | None = None
+        self._remembered: dict[str, int] = {}  # row of a sentence in `_remembered_features`
+        self._remembered_features: TokenFeatures | None = None
         self._last_read: dict[tuple[torch.device, int, tuple[str, ...]], tuple[TokenFeatures, Tensor]] = {}
 
     @torch.inference_mode()
     def forward(self, sentences: Sequence[str]) -> TokenFeatures:
         """Return token features of sentences; those of one do not depend on the others in the batch."""
+        if self._remembered_features and self._remembered.keys() >= set(sentences):
+            rows = torch.tensor([self._remembered[sentence] for sentence in sentences])
+            return self._remembered_features.take(rows).to(next(self.model.parameters()).device)
         ids, mask, _ = self._tokens(sentences, MAX_TOKENS)
         if isinstance(self.model, Bert):
             hidden = self._run(self.model.config.num_hidden_layers, ids, mask)
         else:
             hidden = self.model(input_ids=ids, attention_mask=mask.long()).last_hidden_state
         return TokenFeatures(hidden * mask[..., None], mask, ids)
+
+    def remember(self, sentences: Sequence[str], features: TokenFeatures) -> None:
+        """Return these features [S, T, W] for sentences from now on, in place of those given before."""
+        self._remembered, self._remembered_features = {sentence: n for n, sentence in enumerate(sentences)}, features
 
     def _tokens(self, texts: Sequence[str], max_tokens: int) -> tuple[Tensor, Tensor, list[Encoding]]:
         """Return token ids and mask [S, T] of texts, truncated to a number of tokens, and the encodings."""

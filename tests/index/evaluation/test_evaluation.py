@@ -3,8 +3,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import torch
 
 from index.answering.ranking import Ranker
+from index.evaluation import evaluation
 from index.evaluation.ambiguity import ambiguity
 from index.evaluation.evaluation import evaluate, evaluate_growth, grow_gallery, rescore
 from index.evaluation.localizers import vectors_of_map
@@ -14,7 +16,12 @@ from models.citymap.hints import build_hint_table
 from models.citymap.queries import Queries
 from models.citymap.types import DIRECTIONS
 from models.errors import DataError
+from models.language.text_encoder import load_text_encoder, loaded
+from models.paper.fine.regressor import Regressor, RegressorConfig
+from models.paper.instance_encoder import CellFeatures
+from models.paper.mncl import Mncl, MnclConfig
 from models.sources.source import open_source
+from tests.encoding import write_tiny_t5
 
 
 @pytest.fixture(scope="module")
@@ -198,3 +205,35 @@ def test_exact_matching_against_a_naive_count(osm_file) -> None:
     assert figures["median_cells_that_fit_as_well"] == np.median([b + e for b, e in ranks])
     for k in (1, 3, 5):
         assert figures["exact_matching"][k] == pytest.approx(np.mean([min(1, max(0, (k - b) / e)) for b, e in ranks]))
+
+
+def test_a_second_evaluation_does_not_run_a_heavy_text_encoder(data_and_queries, tmp_path, monkeypatch) -> None:
+    monkeypatch.setenv("HEREABOUTS_CACHE_DIR", str(tmp_path / "cache"))
+    data, queries = data_and_queries
+    queries = queries.take(np.arange(40))
+    words = {word.strip(".") for sentences in queries.sentences for hint in sentences for word in hint.split()}
+    write_tiny_t5(tmp_path / "t5", [".", *sorted(words)])
+
+    def measured() -> tuple[dict, int]:
+        loaded.cache_clear()  # as another process
+        encoder = load_text_encoder(str(tmp_path / "t5"))
+        torch.manual_seed(0)
+        retriever, refiner = Mncl(encoder, MnclConfig(width=32)), Regressor(encoder, RegressorConfig(width=32))
+        localizer = vectors_of_map(
+            data, Ranker.from_cells(retriever.eval(), data.cells, data.gallery.labels), refiner.eval()
+        )
+        refiner._embed(CellFeatures.from_cells(data.cells, np.array(data.gallery.labels)).labels)  # not of queries
+        calls = []
+        encoder.model.register_forward_hook(lambda *_: calls.append(1))
+        return evaluate(data, queries, localizer), len(calls)
+
+    first, second = measured(), measured()
+    loaded.cache_clear()
+    assert first[1] > 0
+    assert second == (first[0], 0)
+    assert [path.suffix for path in sorted((tmp_path / "cache" / "tokens").iterdir())] == [".lock", ".safetensors"]
+
+
+def test_minilm_computes_its_features(data_and_queries, vectors, monkeypatch) -> None:
+    monkeypatch.setattr(evaluation, "frozen_features", None)
+    evaluate(data_and_queries[0], data_and_queries[1].take(np.arange(3)), vectors)

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 import torch
-from tokenizers import Tokenizer, models, pre_tokenizers
-from transformers import AutoModel, AutoTokenizer, PreTrainedTokenizerFast, T5Config, T5EncoderModel
+from torch import nn
+from transformers import AutoModel, AutoTokenizer
 
 from models.errors import WeightsError
 from models.language import int8
@@ -24,6 +24,7 @@ from models.language.int8 import (
 )
 from models.language.text_encoder import MINILM_SHA256, load_text_encoder, run_layers
 from models.memory import drop_pages
+from tests.encoding import write_tiny_t5
 
 SENTENCES = ["I am north of a gray building.", "A tree."]
 
@@ -156,13 +157,7 @@ def test_label_embeddings_know_kinship(text_encoder) -> None:
 
 @pytest.fixture
 def tiny_t5(tmp_path):
-    words = {w: i for i, w in enumerate(["<pad>", "</s>", "<unk>", "north", "of", "a", "tree"])}
-    tokenizer = Tokenizer(models.WordLevel(words, unk_token="<unk>"))
-    tokenizer.pre_tokenizer = pre_tokenizers.Whitespace()
-    fast = PreTrainedTokenizerFast(tokenizer_object=tokenizer, pad_token="<pad>", eos_token="</s>", unk_token="<unk>")
-    fast.save_pretrained(tmp_path)
-    config = T5Config(vocab_size=len(words), d_model=16, d_kv=8, d_ff=32, num_layers=1, num_heads=2)
-    T5EncoderModel(config).save_pretrained(tmp_path)
+    write_tiny_t5(tmp_path, ("north", "of", "a", "tree"))
     return tmp_path
 
 
@@ -172,6 +167,20 @@ def test_t5_from_a_directory(tiny_t5) -> None:
     assert features.values.shape == (2, 4, 16)
     assert features.mask.sum(dim=1).tolist() == [4, 1]
     assert encoder.fingerprint != MINILM_SHA256
+
+
+def test_remembered_features_are_returned_without_the_model(tiny_t5, monkeypatch) -> None:
+    encoder = load_text_encoder(str(tiny_t5))
+    sentences = ["north of a tree", "tree", "a tree"]
+    computed = encoder(sentences)
+    encoder.remember(sentences, computed)
+    monkeypatch.setattr(encoder, "model", nn.Linear(1, 1))  # which computes nothing of this
+    again = encoder(["a tree", "tree"])
+    assert torch.equal(again.values, computed.values[[2, 1], :2])
+    assert again.mask.tolist() == [[True, True], [True, False]]
+    assert torch.equal(again.ids, computed.ids[[2, 1], :2])
+    with pytest.raises(TypeError):
+        encoder(["tree", "north"])
 
 
 def test_an_unknown_model_is_a_clear_error(tmp_path) -> None:
