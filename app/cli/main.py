@@ -15,6 +15,7 @@ from rich.text import Text
 from typer.core import TyperGroup
 
 from app.cli import data as cli_data
+from app.cli import maps as cli_maps
 from app.cli import measure as cli_measure
 from app.cli import reproduce as cli_reproduce
 from app.cli import train as cli_train
@@ -82,8 +83,14 @@ def index(
     ] = "faiss",
     within: Annotated[
         str | None,
-        typer.Option(help="region of an OpenStreetMap file: west,south,east,north in degrees, or a GeoJSON file"),
+        typer.Option(
+            help="region of an OpenStreetMap file: west,south,east,north in degrees, a GeoJSON file, "
+            'or a place in the file, such as place:"Andorra la Vella"'
+        ),
     ] = None,
+    list_places: Annotated[
+        bool, typer.Option("--list-places", help="list the places of the file that --within accepts, and do nothing")
+    ] = False,
     shard: Annotated[
         Shard | None,
         typer.Option(parser=parse_shard, metavar="I/N", help="build only shard I of N, for --merge"),
@@ -98,6 +105,9 @@ def index(
     address: Annotated[str | None, typer.Option(help="address of the Ray cluster; default: a local one")] = None,
 ) -> None:
     """Build an index of a map."""
+    if list_places:
+        cli_maps.print_places(map_path)
+        return
     check_shard_options(shard, merge, engine, address, keep_current)
 
     from app.cli.progress import stage_bars
@@ -105,7 +115,7 @@ def index(
     from index.build.build import IndexJob
     from models.sources.osm.extract import Region
 
-    region = None if within is None else Region.parse(within)
+    region = None if within is None else Region.parse(within, map_path)
     arguments = map_path, out, load_settings().weights_dir, split, keep_current, levels
     with stage_bars() as show:
         path = run_index_job(IndexJob(*arguments, store, region), shard, merge, engine, address, show)

@@ -12,9 +12,11 @@ from shapely.errors import ShapelyError
 
 from models.errors import MapError
 from models.sources.osm.map import SUFFIXES, explained_errors
+from models.sources.osm.places import find_place
 from models.spool import spool_directory
 
-REGION_FORMS = "give west,south,east,north in degrees, or a GeoJSON file with a polygon"
+PLACE_PREFIX = "place:"
+REGION_FORMS = "give west,south,east,north in degrees, a GeoJSON file with a polygon, or place:NAME"
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,8 +26,13 @@ class Region:
     shape: shapely.Geometry  # in degrees, longitude first
 
     @classmethod
-    def parse(cls, text: str) -> "Region":
-        """Parse "west,south,east,north" or the path of a GeoJSON file; raise MapError if it encloses nothing."""
+    def parse(cls, text: str, map_path: Path) -> "Region":
+        """Parse "west,south,east,north", the path of a GeoJSON file, or "place:NAME" with a name in a map's file.
+
+        Raise MapError if it encloses nothing.
+        """
+        if text.startswith(PLACE_PREFIX):
+            return cls(find_place(map_path, text.removeprefix(PLACE_PREFIX)))
         path = Path(text)
         try:
             shape = _parse_geojson(path.read_text(encoding="utf-8")) if path.is_file() else _parse_box(text)

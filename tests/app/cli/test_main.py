@@ -1,5 +1,6 @@
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -11,6 +12,7 @@ from typer.testing import CliRunner
 
 from app import logs, server
 from app.cli.main import app
+from app.cli.measure import SHIPPED_MAP
 from app.threads import THREAD_VARIABLES
 from models.citymap.frame import Frame
 from models.errors import IndexBroken, MapError
@@ -121,6 +123,17 @@ def test_index_builds_and_says_what_next(monkeypatch):
     result = run("index", "--map", "a.osm", "--within", "here")
     assert (result.exit_code, len(calls)) == (1, 3)
     assert "west,south,east,north" in result.stderr
+
+
+def test_places_of_a_map_are_listed_without_an_index(tmp_path):
+    result = run("index", "--map", str(SHIPPED_MAP), "--out", str(tmp_path / "o"), "--list-places")
+    assert result.exit_code == 0
+    assert re.search(r"^Kallio +10 +incomplete +relation/184765 *$", result.stdout, re.MULTILINE)
+    assert result.stdout.splitlines()[-1].startswith("incomplete: the file lacks a part of the boundary")
+    assert not (tmp_path / "o").exists()
+    result = run("index", "--map", str(SHIPPED_MAP), "--within", "place:kallio", "--out", str(tmp_path / "o"))
+    assert (result.exit_code, (tmp_path / "o").exists()) == (1, False)
+    assert "9 of its 10 ways" in result.stderr
 
 
 def test_serve_takes_options_then_environment(monkeypatch):

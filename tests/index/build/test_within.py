@@ -14,7 +14,7 @@ SHIPPED_PATH = Path(models.__file__).parent / "maps" / "helsinki.osm.pbf"
 
 @pytest.mark.slow
 def test_an_index_of_a_part_of_a_file_knows_that_part_alone(weights_dir, tmp_path) -> None:
-    region = Region.parse("24.9440,60.1690,24.9480,60.1710")
+    region = Region.parse("24.9440,60.1690,24.9480,60.1710", SHIPPED_PATH)
     built = IndexJob(SHIPPED_PATH, tmp_path, weights_dir, keep_current=True, within=region).build()
     localizer = Localizer.open(tmp_path, weights_dir)
     assert open_version(tmp_path)[1].map_name == "helsinki"
@@ -26,5 +26,5 @@ def test_an_index_of_a_part_of_a_file_knows_that_part_alone(weights_dir, tmp_pat
     assert np.mean(inside) > 0.8, "cells reach 15 m over the border"
     again = IndexJob(SHIPPED_PATH, tmp_path, weights_dir, keep_current=True, within=region).build()
     assert again == built
-    other = Region.parse("24.9440,60.1690,24.9480,60.1712")
+    other = Region.parse("24.9440,60.1690,24.9480,60.1712", SHIPPED_PATH)
     assert IndexJob(SHIPPED_PATH, tmp_path, weights_dir, keep_current=True, within=other).build() != built

@@ -17,7 +17,7 @@ BOX = "24.9440,60.1690,24.9500,60.1720"
 @pytest.fixture(scope="module")
 def taken(tmp_path_factory):
     out = tmp_path_factory.mktemp("taken") / "part.osm.pbf"
-    extract(SHIPPED_PATH, Region.parse(BOX), out)
+    extract(SHIPPED_PATH, Region.parse(BOX, SHIPPED_PATH), out)
     return out
 
 
@@ -67,7 +67,7 @@ def test_a_polygon_leaves_out_what_is_beside_it(taken, tmp_path) -> None:
     feature = {"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {}, "geometry": triangle}]}
     file = tmp_path / "part.geojson"
     file.write_text(json.dumps(feature))
-    region = Region.parse(str(file))
+    region = Region.parse(str(file), SHIPPED_PATH)
     assert region.shape.bounds == pytest.approx((west, south, east, north))
     with extracted_file(SHIPPED_PATH, region) as path:
         assert path.name == "helsinki.osm.pbf"
@@ -94,7 +94,7 @@ def test_a_polygon_leaves_out_what_is_beside_it(taken, tmp_path) -> None:
 )
 def test_what_is_no_region_says_what_one_is(text) -> None:
     with pytest.raises(MapError, match=r"west,south,east,north"):
-        Region.parse(text)
+        Region.parse(text, SHIPPED_PATH)
 
 
 @pytest.mark.parametrize(
@@ -103,20 +103,23 @@ def test_what_is_no_region_says_what_one_is(text) -> None:
 def test_a_file_without_a_polygon_is_no_region(content, tmp_path) -> None:
     (tmp_path / "x.geojson").write_text(content)
     with pytest.raises(MapError, match=r"GeoJSON"):
-        Region.parse(str(tmp_path / "x.geojson"))
+        Region.parse(str(tmp_path / "x.geojson"), SHIPPED_PATH)
 
 
 def test_where_nothing_is_and_what_is_no_map_is_said(tmp_path) -> None:
-    with pytest.raises(MapError, match="nothing in the region"), extracted_file(SHIPPED_PATH, Region.parse("1,1,2,2")):
+    with (
+        pytest.raises(MapError, match="nothing in the region"),
+        extracted_file(SHIPPED_PATH, Region.parse("1,1,2,2", SHIPPED_PATH)),
+    ):
         pass
     with (
         pytest.raises(MapError, match="needs an OpenStreetMap file"),
-        extracted_file(tmp_path, Region.parse("1,1,2,2")),
+        extracted_file(tmp_path, Region.parse("1,1,2,2", SHIPPED_PATH)),
     ):
         pass
     (tmp_path / "bad.osm.pbf").write_bytes(b"no" * 100)
     with (
         pytest.raises(MapError, match="download it again"),
-        extracted_file(tmp_path / "bad.osm.pbf", Region.parse(BOX)),
+        extracted_file(tmp_path / "bad.osm.pbf", Region.parse(BOX, SHIPPED_PATH)),
     ):
         pass
