@@ -149,8 +149,8 @@ def draw_figure_4(path: Path, x_labels: Sequence[str], curves: Sequence[Sequence
                 axes.plot(recalls, style, color=f"C{n}", ms=4, alpha=0.6 if split else 1, label=label)
         axes.set(xlabel=x_label, ylabel="retrieval recall", xticks=range(len(points)))
         axes.grid(alpha=0.3)
-    columns = 3 * len(x_labels)
-    figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=columns, frameon=False, fontsize=8)
+    lines = axes.get_legend_handles_labels()
+    figure.legend(*lines, loc="outside lower center", ncols=3 * len(x_labels), frameon=False, fontsize=8)
     FigureCanvasAgg(figure).print_png(path)
 
 
