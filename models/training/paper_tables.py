@@ -237,6 +237,7 @@ LONG_HEAD = Experiment(
         TableRow("MNCL, re-ranked by PARC-Loc's matching", MNCL, fine=_lasting(HEAD, 4000), rerank=True),
     ),
     "localization",
+    variants=(OUR_INPUTS,),
     seeds=1,
     long=True,
 )
