@@ -20,7 +20,16 @@ from app.cli import measure as cli_measure
 from app.cli import reproduce as cli_reproduce
 from app.cli import train as cli_train
 from app.cli.aliases import aliases
-from app.cli.options import DATA_HELP, INDEX_DIR, IndexDir, Split, check_shard_options, parse_shard, run_index_job
+from app.cli.options import (
+    DATA_HELP,
+    INDEX_DIR,
+    WITHIN_HELP,
+    IndexDir,
+    Split,
+    check_shard_options,
+    parse_shard,
+    run_index_job,
+)
 from index.answering.query import DEFAULT_REFINE, DEFAULT_TOP_K, Refine
 from index.build.shard import MAX_SHARDS, Shard
 from models.errors import HereaboutsError
@@ -81,13 +90,7 @@ def index(
         Literal["faiss", "milvus"],
         typer.Option(help="store of the vectors: a file, or the Milvus server of HEREABOUTS_MILVUS_URI"),
     ] = "faiss",
-    within: Annotated[
-        str | None,
-        typer.Option(
-            help="region of an OpenStreetMap file: west,south,east,north in degrees, a GeoJSON file, "
-            'or a place in the file, such as place:"Andorra la Vella"'
-        ),
-    ] = None,
+    within: Annotated[str | None, typer.Option(help=WITHIN_HELP)] = None,
     list_places: Annotated[
         bool, typer.Option("--list-places", help="list the places of the file that --within accepts, and do nothing")
     ] = False,
@@ -123,6 +126,7 @@ def index(
         next_step = f"once all {shard.count} are built, run this with --merge {shard.count} instead of --shard {shard}"
         typer.echo(f"shard {shard} is in {path}; {next_step}")
     else:
+        cli_maps.print_index_summary(path)
         typer.echo(f"index {path.name} is in {path}; serve it with: hereabouts serve --index {out}")
 
 
@@ -270,6 +274,7 @@ def _print_table(answer: "Answer") -> None:
 
 
 for command in (
+    cli_maps.check,
     cli_data.prepare,
     cli_data.convert,
     cli_data.synth,

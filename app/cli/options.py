@@ -20,6 +20,10 @@ SPLIT_HELP = (
     "train, val or test; for KITTI360Pose's layout also scenes separated by commas, such as 0003,0005; "
     "default: everything"
 )
+WITHIN_HELP = (
+    "region of an OpenStreetMap file: west,south,east,north in degrees, a GeoJSON file, or a place in the file, "
+    'such as place:"Andorra la Vella"'
+)
 
 
 IndexDir = Annotated[Path, typer.Option("--index", envvar="HEREABOUTS_INDEX_DIR", help="index directory")]

@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field
 
+from models.citymap.summary import MapSummary
+
 if TYPE_CHECKING:  # so that the command line starts without NumPy
     from models.citymap.frame import Frame
     from models.citymap.types import Floats
@@ -268,3 +270,4 @@ class IndexFacts:
     num_instances: int
     dim: int
     scenery_parts: int  # files of the drawing of the map
+    summary: MapSummary | None = None  # None for a data set

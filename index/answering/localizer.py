@@ -114,6 +114,7 @@ class Localizer:
             num_instances=manifest.instances,
             dim=manifest.dim,
             scenery_parts=sum(is_scenery(name) for name in manifest.files),
+            summary=manifest.summary,
         )
 
     def localize(self, queries: Sequence[Query]) -> list[Answer]:

@@ -17,6 +17,7 @@ from pydantic import (
     model_validator,
 )
 
+from models.citymap.summary import MapSummary
 from models.errors import DataError, IndexBroken, IndexMismatch
 from models.files import FileRecord, sha256
 from models.sources.kitti360pose.files import list_scenes, select_scenes
@@ -70,6 +71,7 @@ class Manifest(BaseModel):
     instances: PositiveInt
     store: StoreName = "faiss"
     collection: Annotated[str, StringConstraints(pattern=r"^[A-Za-z_][A-Za-z0-9_]{0,254}$")] | None = None
+    summary: MapSummary | None = None  # None for a data set
     files: dict[Name, FileRecord]
 
     @model_validator(mode="after")

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing, contextmanager, nullcontext
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from index.answering.hint_features import save_hint_features, template_hints
 from index.answering.meanings import Meanings, embed_phrases
@@ -20,6 +21,7 @@ from models.citymap.gallery import MapData
 from models.citymap.gazetteer.gazetteer import Gazetteer
 from models.citymap.kinds.vocabulary import load_vocabulary
 from models.citymap.scenery.files import save_scenery
+from models.citymap.summary import MapSummary
 from models.citymap.types import Progress
 from models.files import file_records, new_directory
 from models.language.mentions.lookup import Lookup
@@ -33,6 +35,13 @@ from models.posterior.node_batch import colour_words
 from models.posterior.statements import Statements
 from models.sources.source import Source, open_gazetteer
 from models.spool import spooled
+
+
+class SavedNames(NamedTuple):
+    """The names of a map, as `save_names` wrote them."""
+
+    directory: Path
+    summary: MapSummary | None  # of the map; None for a data set
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -50,18 +59,18 @@ class Publisher:
         source: Source,
         parts: Sequence[ShardData],
         surroundings: NeighbourIndex,
-        names: Callable[[], Path],
+        names: Callable[[], SavedNames],
         report: Progress,
     ) -> Path:
         """Write a version, point the alias "default" to it, and return its directory.
 
-        `names` waits for `save_names` and returns its directory. Raise DataError if the version cannot be written
+        `names` waits for `save_names` and returns its result. Raise DataError if the version cannot be written
         (older versions stay), StoreUnavailable if Milvus does not accept the vectors (nothing is left there).
         """
         data, origin = source.data, new_version(self.map_sha256, self.retriever.fingerprint)
         report("read names", 0, 0)
         with explain_write_errors(self.out_dir):
-            names_directory = names()
+            saved_names = names()
         report("write index", 0, 0)
         columns = ({"vectors": part.vectors} for part in parts)
         vectors = parts[0].vectors if len(parts) == 1 else spooled(columns)["vectors"]
@@ -79,7 +88,7 @@ class Publisher:
             release_memory()
             data.gallery.save(directory, with_parts=not surroundings.cuts)
             surroundings.save(directory)
-            for file in names_directory.iterdir():
+            for file in saved_names.directory.iterdir():
                 shutil.move(file, directory)
             gazetteer = Gazetteer.load(directory)
             build_landmarks(gazetteer, data.cells).save(directory)
@@ -92,6 +101,7 @@ class Publisher:
                 dim=vectors.shape[1],
                 store=self.store,
                 collection=collection,
+                summary=saved_names.summary,
                 files=file_records(directory),
             )
             write_manifest(directory, manifest)
@@ -110,16 +120,18 @@ class Publisher:
         statements.save(directory, self.posterior_fingerprint)
 
 
-def save_names(path: Path, directory: Path) -> Path:
-    """Write the gazetteer of a map, its name table and the vectors of its phrases, and return the directory."""
-    open_gazetteer(path).save(directory)
+def save_names(path: Path, directory: Path) -> SavedNames:
+    """Write the gazetteer of a map, its name table and the vectors of its phrases."""
+    gazetteer, summary = open_gazetteer(path)
+    gazetteer.save(directory)
+    del gazetteer
     release_memory()
     gazetteer, vocabulary, encoder = Gazetteer.load(directory), load_vocabulary(), load_text_encoder()
     table = NameTable.from_gazetteer(gazetteer, vocabulary, encoder.is_everyday)
     table.save(directory)
     phrases = Lookup(gazetteer, vocabulary, encoder.is_everyday, table).phrases()
     Meanings.from_vectors(*embed_phrases(phrases, encoder.embed), encoder.embed).save(directory)
-    return directory
+    return SavedNames(directory, summary)
 
 
 @contextmanager

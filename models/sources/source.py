@@ -32,11 +32,13 @@ from models.citymap.regions import SPLITS, split_regions
 from models.citymap.scenery.cloud import encode_cloud
 from models.citymap.scenery.files import SceneryBlob
 from models.citymap.scenery.shapes import NamedPoint, Outlines
+from models.citymap.summary import MapSummary
 from models.citymap.types import CityMap, CutRules, Floats, Progress
 from models.errors import DataError, MapError
 from models.sources.kitti360.rules import CLASSES
 from models.sources.osm.gazetteer import load_gazetteer
-from models.sources.osm.map import load_osm, read_frame
+from models.sources.osm.map import load_osm
+from models.sources.osm.summary import load_gazetteer_and_summary
 from models.sources.store.files import load_data
 from models.sources.store.pose_store import PoseStore
 
@@ -285,9 +287,12 @@ def open_sources(path: Path, splits: Sequence[str | None], progress: Progress | 
     return [MapSource(path, city_map, geometry, cells, split) for split in splits]
 
 
-def open_gazetteer(path: Path) -> Gazetteer:
-    """Read the gazetteer of a map without the rest of it; arguments and errors as `open_sources`."""
-    return EMPTY_GAZETTEER if path.is_dir() else load_gazetteer(path, read_frame(path))
+def open_gazetteer(path: Path) -> tuple[Gazetteer, MapSummary | None]:
+    """Read the gazetteer and the summary of a map without the rest of it; arguments and errors as `open_sources`.
+
+    A data set has no names and no summary.
+    """
+    return (EMPTY_GAZETTEER, None) if path.is_dir() else load_gazetteer_and_summary(path)
 
 
 def _grid_spacing_m(cells: CellTable, scene: Ints) -> float:

@@ -183,6 +183,7 @@ QUERIES: Table = {
         "index": NAMES[2::4],
     },
     "GET /cells/{cell_id}": {"index": NAMES[3::4]},
+    "GET /maps/{name}": {"index": NAMES[1::4]},
     "GET /maps/{name}/points": {"part": [*NO_QUERY_INTEGER[1::2], "1000001"], "index": NAMES[::4]},
 }
 IDS = [MARK, SCRIPT, "\0", f"ä{MARK}", MARK * 500, "' OR 1=1 --", "../../etc/passwd", "*"]

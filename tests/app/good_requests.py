@@ -13,6 +13,7 @@ GOOD = {  # by method and path of the OpenAPI document: what httpx sends
     "GET /reverse": {"params": {"lat": 60.17, "lon": 24.94}},
     "GET /cells": {},
     "GET /cells/{cell_id}": {},
+    "GET /maps/{name}": {},
     "GET /maps/{name}/points": {},
     "GET /indexes": {},
     "GET /healthz": {},

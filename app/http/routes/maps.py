@@ -1,4 +1,4 @@
-"""The scenery of the map for the page: geometry or points."""
+"""The served map: what it is good for, and its scenery for the page, which is geometry or points."""
 
 import gzip
 from typing import Annotated
@@ -10,9 +10,23 @@ from app.http.dependencies import Localizer
 from app.http.errors import Code, Problem
 from app.http.formats.negotiation import accepts_gzip, etag, is_unchanged
 from app.http.openapi import problems
+from app.http.schemas.responses import MapResponse
 
 router = APIRouter(tags=["map"])
 BINARY = "application/octet-stream"
+
+
+@router.get(
+    "/maps/{name}",
+    responses=problems(
+        Code.MAP_NOT_FOUND, Code.INDEX_NOT_FOUND, Code.INVALID_REQUEST, Code.NOT_READY, Code.LOAD_FAILED
+    ),
+)
+def describe_map(name: str, localizer: Localizer) -> MapResponse:
+    """Return the size of a map, and what descriptions can name there."""
+    if name != localizer.facts.map_name:
+        raise Problem(Code.MAP_NOT_FOUND)
+    return MapResponse.build(localizer)
 
 
 @router.get(

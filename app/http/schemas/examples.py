@@ -112,3 +112,26 @@ DESCRIBED: JsonValue = {
     "provenance": _PROVENANCE,
     "timings_ms": {"total": 8.4},
 }
+MAP: JsonValue = {
+    "name": "helsinki",
+    "num_cells": 13041,
+    "num_instances": 9120,
+    "summary": {
+        "bbox": [24.9351762, 60.164155, 24.9534145, 60.179113],
+        "width_km": 1.01,
+        "height_km": 1.67,
+        "walkable_km": 94.6,
+        "objects": 8598,
+        "streets": 93,
+        "named_objects": 1868,
+        "house_numbers": 1445,
+        "kinds": {"traffic sign": 1506, "street lamp": 586, "bench": 162},
+        "scripts": {"latin": 2656, "cyrillic": 3},
+        "languages": {"sv": 1126, "fi": 1068},
+        "cut": {},
+        "dropped": {},
+        "repaired": {},
+    },
+    "crs": _CRS,
+    "provenance": _PROVENANCE,
+}

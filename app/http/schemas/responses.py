@@ -6,7 +6,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from app import limits
 from app.http.protocol import LocalizerLike
-from app.http.schemas.examples import ANSWERED, DESCRIBED
+from app.http.schemas.examples import ANSWERED, DESCRIBED, MAP
 from app.http.schemas.ros import PoseWithCovarianceStamped
 from app.settings import Settings
 from index.answering.answers import (
@@ -27,6 +27,7 @@ from index.answering.answers import (
 )
 from index.build.artifact import DEFAULT_ALIAS
 from models.citymap.frame import Frame
+from models.citymap.summary import MapSummary
 
 
 class _Out(BaseModel):
@@ -241,6 +242,24 @@ class IndexInfo(_Out):
     def build(cls, localizer: LocalizerLike) -> "IndexInfo":
         """Describe the index of a localizer."""
         return cls(**_common_fields(cls, localizer.facts), **_origin(localizer))
+
+
+class MapResponse(_Out):
+    """A served map."""
+
+    model_config = ConfigDict(json_schema_extra={"examples": [MAP]})
+
+    name: str
+    num_cells: int
+    num_instances: int
+    summary: MapSummary | None = Field(description="null for a data set, which has no names")
+    crs: CrsOut
+    provenance: Provenance
+
+    @classmethod
+    def build(cls, localizer: LocalizerLike) -> "MapResponse":
+        """Describe the map of a localizer."""
+        return cls(name=localizer.facts.map_name, **_common_fields(cls, localizer.facts), **_origin(localizer))
 
 
 class InfoResponse(_Out):

@@ -91,6 +91,16 @@ class ObjectTable(Sequence[GazetteerObject]):
         return np.diff(self._kind_starts) > 0
 
     @property
+    def has_number(self) -> Mask:
+        """Whether each object [O] has a house number."""
+        return self._written[:, 0]
+
+    def count_kinds(self) -> Mapping[str, int]:
+        """Return the number of objects of each kind, counting only the most specific kind of each, in any order."""
+        kinds, counts = np.unique(self._kinds[self._kind_starts[:-1][self.has_kind]], return_counts=True)
+        return {self._all_kinds[kind]: count for kind, count in zip(kinds.tolist(), counts.tolist(), strict=True)}
+
+    @property
     def is_street(self) -> Mask:
         """Whether each object [O] is a street."""
         mask = np.zeros(len(self), np.bool_)

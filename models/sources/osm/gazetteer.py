@@ -23,6 +23,7 @@ from models.citymap.gazetteer.streets import StreetPiece, StreetPieces, join_str
 from models.citymap.kinds.vocabulary import Vocabulary, load_vocabulary
 from models.citymap.types import Floats
 from models.sources.osm.map import batched, explained_errors, geometry_factories, source_id
+from models.sources.osm.reading_counts import ReadingCounts
 from models.spool import Spool
 
 NAME_KEYS = (
@@ -55,11 +56,14 @@ class _OsmObject:
     nodes: dict[int, tuple[float, float]]  # of a piece of a street, by id: longitude and latitude
 
 
-def load_gazetteer(path: Path, frame: Frame) -> Gazetteer:
-    """Read all objects of a map's file that a passer-by could name; raise MapError if it cannot be read."""
+def load_gazetteer(path: Path, frame: Frame, counts: ReadingCounts | None = None) -> Gazetteer:
+    """Read all objects of a map's file that a passer-by could name; raise MapError if it cannot be read.
+
+    `counts` are increased.
+    """
     objects, pieces, walked = GazetteerBuilder(), StreetPieces(), Spool()
     walked.add({"segments_m": concatenate_segments([])})
-    for batch in _read_batches(path):
+    for batch in _read_batches(path, counts or ReadingCounts()):
         with_segments = list(zip(batch, _batch_segments(batch, frame), strict=True))
         pieces.add([_street_piece(item, segments, frame) for item, segments in with_segments if item.nodes])
         lines = [segments for item, segments in with_segments if item.object is _WALKED_OBJECT]
@@ -74,12 +78,12 @@ def load_gazetteer(path: Path, frame: Frame) -> Gazetteer:
     return objects.build((streets.corner_streets, streets.corners_m))
 
 
-def _read_batches(path: Path) -> Iterator[list[_OsmObject]]:
+def _read_batches(path: Path, counts: ReadingCounts) -> Iterator[list[_OsmObject]]:
     with explained_errors(path):
-        yield from batched(_read(osmium.FileProcessor(str(path)).with_areas(), load_vocabulary()))
+        yield from batched(_read(osmium.FileProcessor(str(path)).with_areas(), load_vocabulary(), counts))
 
 
-def _read(processor: Any, vocabulary: Vocabulary) -> Iterator[_OsmObject]:
+def _read(processor: Any, vocabulary: Vocabulary, counts: ReadingCounts) -> Iterator[_OsmObject]:
     create = geometry_factories()
     for element in processor:
         form = element.type_str()
@@ -99,7 +103,12 @@ def _read(processor: Any, vocabulary: Vocabulary) -> Iterator[_OsmObject]:
         if item is None:
             continue
         nodes = {n.ref: (n.lon, n.lat) for n in element.nodes if n.location.valid()} if is_street else {}
-        yield from _with_geometry(element, create, form, item, nodes)
+        placed = list(_with_geometry(element, create, form, item, nodes))
+        if not placed:
+            counts.dropped["a part is not in the file, or the outline is broken"] += 1
+        elif item.names:
+            counts.add_names(item.names[0], tags)
+        yield from placed
 
 
 def _with_geometry(

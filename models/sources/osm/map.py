@@ -97,11 +97,6 @@ def _build_features(
             yield build_feature(element.osm_class, element.order, element.tags, element.source_id, geometry)
 
 
-def read_frame(path: Path) -> Frame:
-    """Return the frame of a file's map; arguments and errors as `load_osm`."""
-    return read_frame_and_box(path)[0]
-
-
 def _total_bounds(batches: Iterable[Batch]) -> Box:
     low, high = np.full(3, np.inf), np.full(3, -np.inf)  # longitude from -180, longitude from 0, latitude
     for _, geometry in batches:

@@ -11,6 +11,7 @@ from fake_localizer import FakeLocalizer
 from typer.testing import CliRunner
 
 from app import logs, server
+from app.cli import maps
 from app.cli.main import app
 from app.cli.measure import SHIPPED_MAP
 from app.threads import THREAD_VARIABLES
@@ -113,6 +114,7 @@ def test_index_builds_and_says_what_next(monkeypatch):
         return SimpleNamespace(build=build)
 
     monkeypatch.setitem(sys.modules, "index.build.build", SimpleNamespace(IndexJob=job))
+    monkeypatch.setattr(maps, "print_index_summary", lambda _path: None)
     result = run("index", "--map", "a.osm", "--out", "o")
     assert (result.exit_code, calls) == (0, [(Path("a.osm"), Path("o"), None)])
     assert result.stdout == "index v1 is in o/v1; serve it with: hereabouts serve --index o\n"

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import pytest
 from typer.testing import CliRunner
 
+from app.cli import maps
 from app.cli.main import app
 from app.threads import THREAD_VARIABLES
 from index.build.shard import Shard
@@ -37,6 +38,7 @@ def calls(monkeypatch):
         made.append((*job.given, count, address))
         return Path("o/v2")
 
+    monkeypatch.setattr(maps, "print_index_summary", lambda _path: None)
     monkeypatch.setitem(sys.modules, "index.build.build", SimpleNamespace(IndexJob=Job))
     monkeypatch.setitem(sys.modules, "index.build.ray_shards", SimpleNamespace(build_on_ray=build_on_ray))
     return made

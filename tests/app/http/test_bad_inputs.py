@@ -37,6 +37,7 @@ NAMED = {  # the parameter in an operation's path, and what is said of one that 
     "DELETE /evaluate/{job}": ("job", "job_not_found"),
     "GET /evaluate/{job}/events": ("job", "job_not_found"),
     "GET /cells/{cell_id}": ("cell_id", "cell_not_found"),
+    "GET /maps/{name}": ("name", "map_not_found"),
     "GET /maps/{name}/points": ("name", "map_not_found"),
 }
 GOOD_AFTER = {  # where the operation's own good request is not answered alike each time

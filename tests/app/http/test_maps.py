@@ -1,12 +1,31 @@
 import gzip
+import json
+from dataclasses import asdict, replace
 from hashlib import sha256
 
 import pytest
 from fake_localizer import FakeLocalizer
 
 from models.citymap.scenery.files import SceneryPart
+from models.citymap.summary import MapSummary
 
 PATH = "/maps/fakeville/points"
+SUMMARY = MapSummary(
+    bbox=(24.9, 60.1, 25.0, 60.2),
+    width_km=5.5,
+    height_km=11.1,
+    walkable_km=320.5,
+    objects=4000,
+    streets=93,
+    named_objects=1868,
+    house_numbers=1445,
+    kinds={"cafe": 82},
+    scripts={"latin": 2656},
+    languages={"fi": 1068},
+    cut={},
+    dropped={"the outline is broken": 2},
+    repaired={},
+)
 BLOBS = b"geometry" * 100, b"more"
 
 
@@ -19,6 +38,20 @@ def drawn(settings, start, tmp_path):
         parts.append(SceneryPart(path, sha256(path.read_bytes()).hexdigest()))
     with start(settings, FakeLocalizer(parts=parts)) as api:
         yield api
+
+
+def test_a_map_says_what_it_is_good_for(settings, start):
+    fake = FakeLocalizer()
+    fake.facts = replace(fake.facts, summary=SUMMARY)
+    with start(settings, fake) as api:
+        body = api.get("/maps/fakeville").json()
+    assert (body["name"], body["num_cells"], body["provenance"]["map"]) == ("fakeville", 2, "fakeville")
+    assert body["summary"] == json.loads(json.dumps(asdict(SUMMARY)))
+
+
+def test_a_data_set_has_no_summary(api, problem):
+    assert api.get("/maps/fakeville").json()["summary"] is None
+    problem(api.get("/maps/elsewhere"), 404, "map_not_found")
 
 
 @pytest.mark.parametrize("accepts", ["gzip, br", "identity"])

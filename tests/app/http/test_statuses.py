@@ -26,7 +26,8 @@ READ = "read-key-1"
 GEO, PICTURE = {"Accept": "application/geo+json"}, {"Accept": "image/png"}
 QUEUED = ("POST /localize", "POST /localize/batch", "POST /describe", "POST /evaluate", "GET /search", "GET /reverse")
 DRAWN = ("GET /cells", "GET /cells/{cell_id}")
-OF_MAP = (*DRAWN, "GET /maps/{name}/points")
+CACHED = (*DRAWN, "GET /maps/{name}/points")
+OF_MAP = (*CACHED, "GET /maps/{name}")
 OF_ONE_INDEX = (*(operation for operation in QUEUED if operation != "POST /localize/batch"), *OF_MAP)
 OF_JOB = ("GET /evaluate/{job}", "DELETE /evaluate/{job}", "GET /evaluate/{job}/events")
 OPEN = ("GET /healthz", "GET /readyz", "GET /metrics", "GET /info")
@@ -79,7 +80,7 @@ def job_that_is_there(services, operation, patch):
     return ask(services(), operation, {"job": job})
 
 
-@provokes(304, None, *OF_MAP)
+@provokes(304, None, *CACHED)
 def client_has_it(services, operation, patch):
     return ask(services(), operation, headers={"If-None-Match": "*"})
 
@@ -110,7 +111,7 @@ def another_index(services, operation, patch):
 
 
 @provokes(404, "cell_not_found", "GET /cells/{cell_id}")
-@provokes(404, "map_not_found", "GET /maps/{name}/points")
+@provokes(404, "map_not_found", "GET /maps/{name}", "GET /maps/{name}/points")
 @provokes(404, "job_not_found", *OF_JOB)
 def another_name(services, operation, patch):
     return ask(services(), operation, {"cell_id": "none", "name": "none", "job": "none"})

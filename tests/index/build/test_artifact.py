@@ -14,6 +14,7 @@ from models.errors import IndexBroken, IndexMismatch
 from models.files import new_directory
 from models.paper.checkpoint import save_retriever
 from models.paper.mncl import Mncl
+from models.sources.osm.summary import load_gazetteer_and_summary
 
 
 @pytest.fixture
@@ -22,12 +23,13 @@ def copy(index_dir, tmp_path):
     return tmp_path / "index"
 
 
-def test_the_manifest_says_what_is_there(index_dir, city, cells, model) -> None:
+def test_the_manifest_says_what_is_there(index_dir, osm_file, city, cells, model) -> None:
     directory, manifest = open_version(index_dir)
     assert directory.name == manifest.version
     assert manifest.cells == len(cells)
     assert manifest.instances == len(city.instances)
     assert manifest.model_fingerprint == model.fingerprint
+    assert manifest.summary == load_gazetteer_and_summary(osm_file)[1]
     assert set(manifest.files) == {
         *("vectors.faiss", "hints.safetensors", "cells.safetensors", "cells.json"),
         *("pieces.safetensors", "statements.safetensors"),

@@ -208,6 +208,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/maps/{name}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Describe Map
+         * @description Return the size of a map, and what descriptions can name there.
+         */
+        get: operations["describe_map_maps__name__get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/maps/{name}/points": {
         parameters: {
             query?: never;
@@ -1581,6 +1601,162 @@ export interface components {
             warnings: string[];
         };
         /**
+         * MapResponse
+         * @description A served map.
+         * @example {
+         *       "crs": {
+         *         "axes": "ENU",
+         *         "frame_id": "map",
+         *         "origin": {
+         *           "lat": 60.17,
+         *           "lon": 24.94
+         *         },
+         *         "units": "m"
+         *       },
+         *       "name": "helsinki",
+         *       "num_cells": 13041,
+         *       "num_instances": 9120,
+         *       "provenance": {
+         *         "attribution": "© OpenStreetMap contributors",
+         *         "index": "default",
+         *         "index_version": "20260101T120000Z-1a2b3c4d",
+         *         "map": "helsinki",
+         *         "model": "posterior/minilm/192",
+         *         "model_sha256": "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08"
+         *       },
+         *       "summary": {
+         *         "bbox": [
+         *           24.9351762,
+         *           60.164155,
+         *           24.9534145,
+         *           60.179113
+         *         ],
+         *         "cut": {},
+         *         "dropped": {},
+         *         "height_km": 1.67,
+         *         "house_numbers": 1445,
+         *         "kinds": {
+         *           "bench": 162,
+         *           "street lamp": 586,
+         *           "traffic sign": 1506
+         *         },
+         *         "languages": {
+         *           "fi": 1068,
+         *           "sv": 1126
+         *         },
+         *         "named_objects": 1868,
+         *         "objects": 8598,
+         *         "repaired": {},
+         *         "scripts": {
+         *           "cyrillic": 3,
+         *           "latin": 2656
+         *         },
+         *         "streets": 93,
+         *         "walkable_km": 94.6,
+         *         "width_km": 1.01
+         *       }
+         *     }
+         */
+        MapResponse: {
+            /** Name */
+            name: string;
+            /** Num Cells */
+            num_cells: number;
+            /** Num Instances */
+            num_instances: number;
+            /** @description null for a data set, which has no names */
+            summary: components["schemas"]["MapSummary"] | null;
+            crs: components["schemas"]["CrsOut"];
+            provenance: components["schemas"]["Provenance"];
+        };
+        /**
+         * MapSummary
+         * @description The size and content of a map from OpenStreetMap.
+         */
+        MapSummary: {
+            /**
+             * Bbox
+             * @description west, south, east, north in degrees; across 180 degrees east is beyond 180
+             */
+            bbox: [
+                number,
+                number,
+                number,
+                number
+            ];
+            /** Width Km */
+            width_km: number;
+            /** Height Km */
+            height_km: number;
+            /**
+             * Walkable Km
+             * @description length of the streets and paths that people walk on
+             */
+            walkable_km: number;
+            /**
+             * Objects
+             * @description everything that a description can name, streets included
+             */
+            objects: number;
+            /**
+             * Streets
+             * @description streets with a name
+             */
+            streets: number;
+            /**
+             * Named Objects
+             * @description other objects with a name
+             */
+            named_objects: number;
+            /**
+             * House Numbers
+             * @description objects with a house number
+             */
+            house_numbers: number;
+            /**
+             * Kinds
+             * @description objects of the most frequent kinds
+             */
+            kinds: {
+                [key: string]: number;
+            };
+            /**
+             * Scripts
+             * @description names in each script
+             */
+            scripts: {
+                [key: string]: number;
+            };
+            /**
+             * Languages
+             * @description elements with a name tagged in each of the most frequent languages
+             */
+            languages: {
+                [key: string]: number;
+            };
+            /**
+             * Cut
+             * @description objects that lost a part, by reason
+             */
+            cut: {
+                [key: string]: number;
+            };
+            /**
+             * Dropped
+             * @description objects left out, by reason
+             */
+            dropped: {
+                [key: string]: number;
+            };
+            /**
+             * Repaired
+             * @description objects or tags that were corrected, by reason
+             */
+            repaired: {
+                [key: string]: number;
+            };
+        };
+        /**
          * PoseWithCovariance
          * @description geometry_msgs/PoseWithCovariance.
          */
@@ -2783,6 +2959,58 @@ export interface operations {
             };
             /** @description Internal error */
             500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The model is still loading; The index or the model could not be loaded */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+        };
+    };
+    describe_map_maps__name__get: {
+        parameters: {
+            query?: {
+                /** @description an index that GET /info lists */
+                index?: string;
+            };
+            header?: never;
+            path: {
+                name: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MapResponse"];
+                };
+            };
+            /** @description No such map, or no such part of it; No such index */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The request is invalid */
+            422: {
                 headers: {
                     [name: string]: unknown;
                 };

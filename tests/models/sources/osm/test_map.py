@@ -9,7 +9,7 @@ import shapely
 from models.citymap.colours import parse_colour
 from models.errors import MapError
 from models.sources.osm.classes import OsmClass, find_class, load_classes
-from models.sources.osm.map import load_osm, read_frame
+from models.sources.osm.map import load_osm, read_frame_and_box
 
 HEADER = "<?xml version='1.0' encoding='UTF-8'?><osm version='0.6'>"
 STREET = (
@@ -63,9 +63,9 @@ BOX = '<bounds minlat="59.999" minlon="24.999" maxlat="60.005" maxlon="25.003"/>
 def test_the_frame_is_known_before_the_map_is_read(tmp_path, box) -> None:
     path = tmp_path / "map.osm"
     path.write_text(HEADER + box + STREET + "</osm>")
-    assert read_frame(path) == load_osm(path).frame
-    assert read_frame(path).origin_lat == pytest.approx(60.002 if box else 60.0)
-    assert read_frame(path).origin_lon == pytest.approx(25.001 if box else 25.0005)
+    assert read_frame_and_box(path)[0] == load_osm(path).frame
+    assert read_frame_and_box(path)[0].origin_lat == pytest.approx(60.002 if box else 60.0)
+    assert read_frame_and_box(path)[0].origin_lon == pytest.approx(25.001 if box else 25.0005)
 
 
 def test_a_map_beside_its_box_is_refused(tmp_path) -> None:
