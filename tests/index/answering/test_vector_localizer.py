@@ -1,4 +1,5 @@
 import dataclasses
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from index.evaluation.evaluation import evaluate
 from index.evaluation.localizers import vectors_of_map
 from index.evaluation.predictions import PREDICTIONS_FILE, Predictions
 from models.errors import WeightsError
+from models.language.text_encoder import DEFAULT_TEXT_ENCODER
 from models.paper.fine.checkpoint import load_refiner, save_fine
 from models.paper.fine.matching import Matching, MatchingConfig
 from models.paper.fine.regressor import Regressor, RegressorConfig
@@ -24,6 +26,8 @@ class OracleRefiner:
     """A refiner that knows where each description was said."""
 
     method, name, fingerprint, error_m = "regressor", "oracle", "told", 0.5
+
+    text_encoder = SimpleNamespace(source=DEFAULT_TEXT_ENCODER)
 
     def __init__(self, cells, positions_m):
         self.cells, self.positions_m, self.rows_refined = cells, positions_m, 0
