@@ -100,7 +100,8 @@ def measuring(sources: Any, osm_file: Path, out: Path) -> None:
     encoder, record = load_text_encoder(), {"sources": [{"validation": {"retrieval": {}}}]}
     save_retriever(METHODS["mncl"](encoder, job.settings()[0]), job.directory / jobs.WEIGHTS_DIR, record)
     save_fine(FINE_METHODS["regressor"](encoder, fine_job.settings()[0]), fine_job.directory / jobs.WEIGHTS_DIR, record)
-    parts = [(source.data, replace(source.queries().take(np.arange(8)), hints=None)) for source in sources]
+    few = [source.queries().take(np.arange(0, len(source.queries()), 5)) for source in sources]
+    parts = [(source.data, replace(queries, hints=None)) for source, queries in zip(sources, few, strict=True)]
     jobs.open_queries = lambda _, *splits: iter(parts[: len(splits)])
     assert jobs._measure_retriever(job, job.directory / jobs.WEIGHTS_DIR)["growth"]
     jobs.localize(job, fine_job, None)
