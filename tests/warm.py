@@ -85,7 +85,11 @@ def main(path: str) -> None:
                     return
                 if key.fileobj is listener:
                     starter = listener.accept()[0]
-                    pid = _fork(*socket.recv_fds(starter, 1 << 20, 4)[:2])
+                    order, fds, *_ = socket.recv_fds(starter, 1 << 20, 4)
+                    if not order:  # the starter was killed before it could send one
+                        starter.close()
+                        continue
+                    pid = _fork(order, fds)
                     running[pid] = ended, _ = os.pidfd_open(pid), starter
                     for one in (ended, starter):
                         events.register(one, selectors.EVENT_READ, pid)
