@@ -22,12 +22,14 @@ from app.cli import train as cli_train
 from app.cli.aliases import aliases
 from app.cli.options import (
     DATA_HELP,
+    EXTRA_FORMATS,
     INDEX_DIR,
     WITHIN_HELP,
     IndexDir,
     Split,
     check_shard_options,
     parse_shard,
+    read_extras,
     run_index_job,
 )
 from index.answering.query import DEFAULT_REFINE, DEFAULT_TOP_K, Refine
@@ -91,6 +93,16 @@ def index(
         typer.Option(help="store of the vectors: a file, or the Milvus server of HEREABOUTS_MILVUS_URI"),
     ] = "faiss",
     within: Annotated[str | None, typer.Option(help=WITHIN_HELP)] = None,
+    extra: Annotated[
+        list[Path] | None,
+        typer.Option(help=f"a city's own data, to join the map: {EXTRA_FORMATS}; may be repeated, each with a --kind"),
+    ] = None,
+    kind: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="kind of the objects of an --extra: waste_basket, amenity=waste_basket, or a word of your own"
+        ),
+    ] = None,
     list_places: Annotated[
         bool, typer.Option("--list-places", help="list the places of the file that --within accepts, and do nothing")
     ] = False,
@@ -118,10 +130,11 @@ def index(
     from index.build.build import IndexJob
     from models.sources.osm.extract import Region
 
+    extras = read_extras(extra or [], kind or [])
     region = None if within is None else Region.parse(within, map_path)
     arguments = map_path, out, load_settings().weights_dir, split, keep_current, levels
     with stage_bars() as show:
-        path = run_index_job(IndexJob(*arguments, store, region), shard, merge, engine, address, show)
+        path = run_index_job(IndexJob(*arguments, store, region, extras), shard, merge, engine, address, show)
     if shard:
         next_step = f"once all {shard.count} are built, run this with --merge {shard.count} instead of --shard {shard}"
         typer.echo(f"shard {shard} is in {path}; {next_step}")

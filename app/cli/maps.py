@@ -65,6 +65,8 @@ def _rows(name: str, summary: "MapSummary") -> Iterator[tuple[str, str]]:
     yield "house numbers", f"{summary.house_numbers:,}"
     yield "scripts", _counts(summary.scripts)
     yield "languages", _counts(summary.languages)
+    for layer, count in summary.extras.items():
+        yield "extra", f"{count:,} objects of {layer}"
     for title in ("cut", "dropped", "repaired"):
         for reason, count in getattr(summary, title).items():
             yield title, f"{count:,}: {reason}"

@@ -1,5 +1,6 @@
 """Options that several commands share, and those of `index` that split the work into shards."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -10,6 +11,7 @@ from index.build.shard import Shard
 if TYPE_CHECKING:
     from index.build.build import IndexJob
     from models.citymap.types import Progress
+    from models.sources.extras.layer import ExtraLayer
 
 INDEX_DIR = Path("data/index")
 DATA_HELP = (
@@ -24,6 +26,7 @@ WITHIN_HELP = (
     "region of an OpenStreetMap file: west,south,east,north in degrees, a GeoJSON file, or a place in the file, "
     'such as place:"Andorra la Vella"'
 )
+EXTRA_FORMATS = "a .csv file with columns lat and lon, GeoJSON, or Overpass JSON"
 
 
 IndexDir = Annotated[Path, typer.Option("--index", envvar="HEREABOUTS_INDEX_DIR", help="index directory")]
@@ -51,6 +54,18 @@ def check_shard_options(
         raise typer.BadParameter(
             "--address is the address of a Ray cluster: give --engine ray with it, or leave it out"
         )
+
+
+def read_extras(files: Sequence[Path], kinds: Sequence[str]) -> tuple["ExtraLayer", ...]:
+    """Read a city's own data: the n-th file has objects of the n-th kind."""
+    from models.sources.extras.layer import ExtraLayer  # noqa: PLC0415  # heavy
+
+    if len(files) != len(kinds):
+        raise typer.BadParameter(
+            f"each --extra needs a --kind after it, such as --extra bins.geojson --kind waste_basket: "
+            f"there are {len(files)} and {len(kinds)}"
+        )
+    return tuple(ExtraLayer.read(path, kind) for path, kind in zip(files, kinds, strict=True))
 
 
 def run_index_job(

@@ -1,6 +1,6 @@
 """The offline job: map -> cells -> vectors -> an index version on disk, in one process or in shards."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import partial
@@ -15,7 +15,7 @@ from index.build.shard_data import ShardData, explain_write_errors
 from index.build.shard_store import Origin, ShardStore
 from models.citymap.cells import CELLS_PER_BLOCK
 from models.citymap.types import Progress
-from models.errors import IndexUnusable
+from models.errors import DataError, IndexUnusable
 from models.paper.checkpoint import load_retriever
 from models.paper.level_table import FILE as LEVELS_FILE
 from models.paper.retriever import Retriever
@@ -23,7 +23,9 @@ from models.posterior.model import PosteriorModel, load_posterior
 from models.posterior.neighbours.neighbour_index import build_neighbour_index
 from models.posterior.neighbours.scan_index import ScanNeighbourIndex
 from models.processes import forked
+from models.sources.extras.layer import ExtraLayer
 from models.sources.osm.extract import Region, extracted_file
+from models.sources.osm.map import read_bounds
 from models.sources.source import open_source
 from models.spool import spool_directory, spooling_in
 
@@ -53,6 +55,7 @@ class IndexJob:
     levels: bool = True  # also store the retriever's other levels, which every `refine` but the default ranks by
     store: StoreName = "faiss"  # where the vectors go: a file, or the Milvus server that HEREABOUTS_MILVUS_URI names
     within: Region | None = None  # the region of an OpenStreetMap file to index; None for all of it
+    extras: tuple[ExtraLayer, ...] = ()  # a city's own data, which joins the map
 
     def build(self, report: Progress = no_progress) -> Path:
         """Build a version in this process and return its directory; after an error, older versions stay.
@@ -65,10 +68,10 @@ class IndexJob:
         with (
             self._working_directory(),
             spool_directory() as names_directory,
-            self._map_file(report) as path,
-            forked(partial(save_names, path, names_directory)) as names,
+            self._map_file(report) as (path, extras),
+            forked(partial(save_names, path, names_directory, extras)) as names,
         ):
-            source = open_source(path, self.split, report)
+            source = open_source(path, self.split, report, extras)
             surroundings = build_neighbour_index(source.geometry(), source.data.cells, report)
             rows = range(len(source.data.cells))
             encoder, likelihood = self._encoder(models), models.posterior.likelihood
@@ -83,8 +86,8 @@ class IndexJob:
             return shards.path(shard)
         with explain_write_errors(self.out_dir):
             shards.check_writable()
-        with self._working_directory(), self._map_file(report) as path:
-            source = open_source(path, self.split, report)
+        with self._working_directory(), self._map_file(report) as (path, extras):
+            source = open_source(path, self.split, report, extras)
             count = len(source.data.cells)
             rows = shard.rows(count, CELLS_PER_BLOCK)
             surroundings = build_neighbour_index(source.geometry(), source.data.cells, report, rows)
@@ -106,8 +109,12 @@ class IndexJob:
         if version is None:
             report("check parts", 0, 0)
             shards.check(count)
-            with self._working_directory(), spool_directory() as names_directory, self._map_file(report) as path:
-                source = open_source(path, self.split, report)
+            with (
+                self._working_directory(),
+                spool_directory() as names_directory,
+                self._map_file(report) as (path, extras),
+            ):
+                source = open_source(path, self.split, report, extras)
                 shards_data = shards.read(count, self._encoder(models).levels, source.data.cells)
                 scanned = [shard_data.scanned for shard_data in shards_data if shard_data.scanned is not None]
                 surroundings = (
@@ -115,7 +122,7 @@ class IndexJob:
                     if scanned
                     else build_neighbour_index(source.geometry(), source.data.cells)
                 )
-                names = partial(save_names, path, names_directory)
+                names = partial(save_names, path, names_directory, extras)
                 version = self._publisher(models).publish(source, shards_data, surroundings, names, report)
         shards.remove()
         return version
@@ -127,9 +134,9 @@ class IndexJob:
     def _load_models(self, report: Progress) -> _LoadedModels:
         report("load model", 0, 0)
         region = None if self.within is None else self.within.shape.wkt
-        return _LoadedModels(
-            load_retriever(self.weights_dir), load_posterior(), fingerprint(self.map_path, self.split, region)
-        )
+        extras = [f"{layer} {layer.sha256}" for layer in self.extras]
+        map_sha256 = fingerprint(self.map_path, self.split, region, extras)
+        return _LoadedModels(load_retriever(self.weights_dir), load_posterior(), map_sha256)
 
     def _encoder(self, models: _LoadedModels) -> Retriever:
         return models.retriever if self.levels else models.retriever.global_only()
@@ -160,11 +167,18 @@ class IndexJob:
                 self.out_dir.rmdir()
 
     @contextmanager
-    def _map_file(self, report: Progress) -> Iterator[Path]:
+    def _map_file(self, report: Progress) -> Iterator[tuple[Path, Sequence[ExtraLayer]]]:
+        """Yield the file of the region, and what is there of the extra data."""
         if self.within is not None:
             report("take the region", 0, 0)
         with extracted_file(self.map_path, self.within) as path:
-            yield path
+            if not self.extras:
+                yield path, ()
+                return
+            if path.is_dir():
+                raise DataError(f"{path}: --extra needs an OpenStreetMap file; leave it out, or give such a file")
+            box = read_bounds(path)
+            yield path, [layer.clip(box) for layer in self.extras]
 
     def _current_version(self, models: _LoadedModels) -> Path | None:
         if not self.keep_current:

@@ -1,6 +1,7 @@
 """The manifest of an index version, written last, and the checks against it."""
 
 import hashlib
+from collections.abc import Sequence
 from datetime import UTC, datetime
 from importlib.metadata import version as package_version
 from pathlib import Path
@@ -87,8 +88,8 @@ class FormatOnly(BaseModel):
     format: int
 
 
-def fingerprint(data: Path, split: str | None = None, region: str | None = None) -> str:
-    """Return the sha256 of a map's files, its split and its region; DataError without such a path."""
+def fingerprint(data: Path, split: str | None = None, region: str | None = None, extras: Sequence[str] = ()) -> str:
+    """Return the sha256 of a map's files, its split, its region and its extra data; DataError without such a path."""
     if not data.exists():
         raise DataError(f"{data}: no such file or directory; give the path of a map")
     if data.is_file():
@@ -97,7 +98,7 @@ def fingerprint(data: Path, split: str | None = None, region: str | None = None)
         files = [data / STORE_MANIFEST]  # contains the sums of all other files
     else:
         files = [data / "cells" / f"{s}.pkl" for s in select_scenes(list_scenes(data), split, data / "cells")]
-    parts = [f"{split}", *([region] if region else []), *(f"{path.name} {sha256(path)}" for path in files)]
+    parts = [f"{split}", *([region] if region else []), *extras, *(f"{path.name} {sha256(path)}" for path in files)]
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 

@@ -33,6 +33,7 @@ from models.paper.retriever import Retriever
 from models.posterior.neighbours.neighbour_index import NeighbourIndex
 from models.posterior.node_batch import colour_words
 from models.posterior.statements import Statements
+from models.sources.extras.layer import ExtraLayer
 from models.sources.source import Source, open_gazetteer
 from models.spool import spooled
 
@@ -120,9 +121,9 @@ class Publisher:
         statements.save(directory, self.posterior_fingerprint)
 
 
-def save_names(path: Path, directory: Path) -> SavedNames:
+def save_names(path: Path, directory: Path, extras: Sequence[ExtraLayer] = ()) -> SavedNames:
     """Write the gazetteer of a map, its name table and the vectors of its phrases."""
-    gazetteer, summary = open_gazetteer(path)
+    gazetteer, summary = open_gazetteer(path, extras)
     gazetteer.save(directory)
     del gazetteer
     release_memory()

@@ -29,6 +29,7 @@ class MapSummary:
     languages: Annotated[
         Counts, Field(description="elements with a name tagged in each of the most frequent languages")
     ]
+    extras: Annotated[Counts, Field(description="objects of the city's own data, by file and kind")]
     cut: Annotated[Counts, Field(description="objects that lost a part, by reason")]
     dropped: Annotated[Counts, Field(description="objects left out, by reason")]
     repaired: Annotated[Counts, Field(description="objects or tags that were corrected, by reason")]

@@ -35,6 +35,7 @@ from models.citymap.scenery.shapes import NamedPoint, Outlines
 from models.citymap.summary import MapSummary
 from models.citymap.types import CityMap, CutRules, Floats, Progress
 from models.errors import DataError, MapError
+from models.sources.extras.layer import ExtraLayer
 from models.sources.kitti360.rules import CLASSES
 from models.sources.osm.gazetteer import load_gazetteer
 from models.sources.osm.map import load_osm
@@ -261,17 +262,25 @@ def _thin_by_voxel(rows: Floats) -> Floats:
     return rows[np.unique(key, return_index=True)[1]]
 
 
-def open_source(path: Path, split: str | None = None, progress: Progress | None = None) -> Source:
+def open_source(
+    path: Path, split: str | None = None, progress: Progress | None = None, extras: Sequence[ExtraLayer] = ()
+) -> Source:
     """Open a map or a data set; arguments and errors as `open_sources`."""
-    return open_sources(path, [split], progress)[0]
+    return open_sources(path, [split], progress, extras)[0]
 
 
-def open_sources(path: Path, splits: Sequence[str | None], progress: Progress | None = None) -> list[Source]:
+def open_sources(
+    path: Path,
+    splits: Sequence[str | None],
+    progress: Progress | None = None,
+    extras: Sequence[ExtraLayer] = (),
+) -> list[Source]:
     """Open parts of a map or a data set; a map is read and cut once for all of them.
 
     A path is an OpenStreetMap file, a directory in KITTI360Pose's published layout, or a converted store. A split of a
     file is train, val or test (its west, middle or east); of the others a standard split or a comma list of scenes;
-    None for everything. Raise MapError or DataError if the data cannot be read, or have no such split.
+    None for everything. `extras` join a map. Raise MapError or DataError if the data cannot be read, or have no such
+    split.
     """
     if path.is_dir():
         return [StoreSource(load_data(path, split), split) for split in splits]
@@ -281,18 +290,18 @@ def open_sources(path: Path, splits: Sequence[str | None], progress: Progress | 
             raise MapError(f"'{split}' is not a split of a map; {advice}")
     report = progress or (lambda stage, done, total: None)
     report("read map", 0, 0)
-    city_map = load_osm(path)
+    city_map = load_osm(path, extras=extras)
     geometry = build_geometry(city_map)
     cells = cut_cells(city_map, geometry, lambda done, total: report("cut cells", done, total))
     return [MapSource(path, city_map, geometry, cells, split) for split in splits]
 
 
-def open_gazetteer(path: Path) -> tuple[Gazetteer, MapSummary | None]:
+def open_gazetteer(path: Path, extras: Sequence[ExtraLayer] = ()) -> tuple[Gazetteer, MapSummary | None]:
     """Read the gazetteer and the summary of a map without the rest of it; arguments and errors as `open_sources`.
 
     A data set has no names and no summary.
     """
-    return (EMPTY_GAZETTEER, None) if path.is_dir() else load_gazetteer_and_summary(path)
+    return (EMPTY_GAZETTEER, None) if path.is_dir() else load_gazetteer_and_summary(path, extras)
 
 
 def _grid_spacing_m(cells: CellTable, scene: Ints) -> float:

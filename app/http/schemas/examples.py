@@ -128,6 +128,7 @@ MAP: JsonValue = {
         "kinds": {"traffic sign": 1506, "street lamp": 586, "bench": 162},
         "scripts": {"latin": 2656, "cyrillic": 3},
         "languages": {"sv": 1126, "fi": 1068},
+        "extras": {"bins.geojson as amenity=waste_basket": 380},
         "cut": {},
         "dropped": {},
         "repaired": {},

@@ -79,6 +79,11 @@ class Gazetteer:
         middles_m, reach_m = np.ascontiguousarray(self.middles_m[objects].T), self.reach_m[objects]
         return middles_m.astype(np.float32), reach_m.astype(np.float32)  # half the memory to scan
 
+    def overlaps(self, low_m: Floats, high_m: Floats) -> npt.NDArray[np.bool_]:
+        """Return whether the bounding box of each object [O] overlaps a box, given by two corners [2]."""
+        low, high = self._boxes
+        return np.asarray(((high >= low_m) & (low <= high_m)).all(axis=1))
+
     @cached_property
     def _boxes(self) -> tuple[Floats, Floats]:
         if not len(self):

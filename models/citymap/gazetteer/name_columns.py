@@ -72,6 +72,11 @@ class ObjectTable(Sequence[GazetteerObject]):
         source, street, number = (strings.pop() if has else None for has in self._written[row, ::-1].tolist())
         return GazetteerObject(tuple(self._all_kinds[kind] for kind in kinds), tuple(strings), number, street, source)
 
+    @property
+    def known_kinds(self) -> Sequence[str]:
+        """Return all kinds, ascending."""
+        return self._all_kinds
+
     @cached_property
     def by_kind(self) -> Mapping[str, Ints]:
         """Return the objects of each kind."""
@@ -95,9 +100,9 @@ class ObjectTable(Sequence[GazetteerObject]):
         """Whether each object [O] has a house number."""
         return self._written[:, 0]
 
-    def count_kinds(self) -> Mapping[str, int]:
-        """Return the number of objects of each kind, counting only the most specific kind of each, in any order."""
-        kinds, counts = np.unique(self._kinds[self._kind_starts[:-1][self.has_kind]], return_counts=True)
+    def count_kinds(self, objects: Mask) -> Mapping[str, int]:
+        """Return the number of objects of each kind, counting only the most specific kind of each of a mask [O]."""
+        kinds, counts = np.unique(self._kinds[self._kind_starts[:-1][self.has_kind & objects]], return_counts=True)
         return {self._all_kinds[kind]: count for kind, count in zip(kinds.tolist(), counts.tolist(), strict=True)}
 
     @property

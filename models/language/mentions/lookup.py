@@ -10,7 +10,8 @@ import numpy as np
 from cachetools import LRUCache, cachedmethod
 from rapidfuzz import fuzz, process
 
-from models.citymap.gazetteer.gazetteer import Gazetteer
+from models.citymap.gazetteer.gazetteer import ADDRESS_KIND, WALKED_KIND, Gazetteer
+from models.citymap.gazetteer.name_columns import STREET_KIND
 from models.citymap.kinds.vocabulary import Vocabulary
 from models.citymap.points import Ints
 from models.citymap.types import Floats
@@ -27,6 +28,7 @@ PART_WEIGHT: Final = 0.5  # weight of a partial match next to exact ones
 MAX_CACHED_PHRASES: Final = 4096  # with their kinds, and with their streets
 MAX_CACHED_BYTES: Final = 2**24  # of objects by kind
 _NONE: Final = np.zeros(0, np.int64)
+OWN_KINDS: Final = {ADDRESS_KIND, STREET_KIND, WALKED_KIND}  # of the gazetteer
 EMPTY: Final = ARTICLES | english().list("empty")
 
 
@@ -204,8 +206,14 @@ class Lookup:
         return self._table.words.count(word) <= 40 and word not in EMPTY and len(word) > 1 and not word[0].isdigit()
 
     def _plain_nouns(self, language: str) -> Nouns:
-        nouns = self.vocabulary.nouns(language)
+        nouns = {**self._own_nouns, **self.vocabulary.nouns(language)}
         return {" ".join(plain_words(noun)): kinds for noun, kinds in nouns.items()}
+
+    @cached_property
+    def _own_nouns(self) -> Nouns:
+        """Kinds of a city's own data that the vocabulary lacks; each is its own noun."""
+        known = {kind.id for kind in self.vocabulary.kinds} | OWN_KINDS
+        return {kind: ((kind, 1.0),) for kind in self.gazetteer.objects.known_kinds if kind not in known}
 
     @cached_property
     def _foreign(self) -> Nouns:

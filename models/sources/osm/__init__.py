@@ -1,7 +1,8 @@
 """OpenStreetMap as a city map: `map` reads elements by classes.toml, `feature_strips` and `imported_map` import them.
 
 `gazetteer` reads named objects, `extract` takes a region of a file, `city_copies` makes a large city of copies, whose
-streets `copy_names` renames. May import models.citymap, its gazetteer and kinds.
+streets `copy_names` renames. `places` lists named areas, `summary` says what a file is good for. May import
+models.citymap, its gazetteer and kinds.
 """
 
 import os

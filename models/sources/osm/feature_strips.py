@@ -16,7 +16,7 @@ from models.citymap.geometry.piece_rows import TILE_COLUMNS_PER_BAND
 from models.citymap.geometry.tiling import TileSpan, tile_span
 from models.citymap.points import Ints, ranges
 from models.processes import map_forked
-from models.sources.osm.classes import load_classes
+from models.sources.osm.classes import OsmClass, load_classes
 from models.sources.osm.features import UPRIGHT_MERGE_M, Feature, find_joins
 from models.spool import disk_errors
 
@@ -33,10 +33,16 @@ class NumberedFeature:
 
 
 class FeatureStrips:
-    """The N features of a map, given in batches, each stored in every strip that it spans, in an empty directory."""
+    """The N features of a map, given in batches, each stored in every strip that it spans, in an empty directory.
 
-    def __init__(self, directory: Path, features: Iterable[Sequence[Feature]]) -> None:
+    `classes` are those that `Feature.order` numbers, by default the table's.
+    """
+
+    def __init__(
+        self, directory: Path, features: Iterable[Sequence[Feature]], classes: Sequence[OsmClass] | None = None
+    ) -> None:
         self._directory, count = directory, 0
+        self.classes, self.max_source_bytes = classes or load_classes(), 1
         order, heights, numbers = [np.zeros(0, np.int16)], [np.zeros((0, 2))], set[int]()
         for batch in features:
             if not batch:
@@ -44,6 +50,8 @@ class FeatureStrips:
             order.append(np.array([feature.order for feature in batch], np.int16))
             heights.append(np.array([(feature.base_m, feature.height_m) for feature in batch]))
             numbers |= self._store(count, batch)
+            longest = max(len(feature.source_id.encode()) for feature in batch)
+            self.max_source_bytes = max(self.max_source_bytes, longest)
             count += len(batch)
         # Numbers of strips with features, from west to east; class [N] and base and height [N, 2] of each feature
         self.numbers, self.order, self.heights_m = sorted(numbers), np.concatenate(order), np.concatenate(heights)
@@ -104,7 +112,7 @@ class FeatureInstances:
         group = connected_components(graph, directed=False)[1]
         first = np.full(group.max(initial=-1) + 1, count)
         np.minimum.at(first, group, rank)
-        is_upright = np.array([row.shape == UPRIGHT_SHAPE for row in load_classes()])[strips.order]
+        is_upright = np.array([row.shape == UPRIGHT_SHAPE for row in strips.classes])[strips.order]
         is_member = ~is_left_out & ~(is_upright & (first[group] != rank))  # the first stands for the others
         is_first = is_member & (first[group] == rank)
         first_features = by_class[is_first[by_class]]

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +23,7 @@ from models.citymap.gazetteer.name_columns import STREET_KIND, GazetteerObject
 from models.citymap.gazetteer.streets import StreetPiece, StreetPieces, join_streets
 from models.citymap.kinds.vocabulary import Vocabulary, load_vocabulary
 from models.citymap.types import Floats
+from models.sources.extras.layer import ExtraLayer
 from models.sources.osm.map import batched, explained_errors, geometry_factories, source_id
 from models.sources.osm.reading_counts import ReadingCounts
 from models.spool import Spool
@@ -56,14 +58,16 @@ class _OsmObject:
     nodes: dict[int, tuple[float, float]]  # of a piece of a street, by id: longitude and latitude
 
 
-def load_gazetteer(path: Path, frame: Frame, counts: ReadingCounts | None = None) -> Gazetteer:
+def load_gazetteer(
+    path: Path, frame: Frame, counts: ReadingCounts | None = None, extras: Sequence[ExtraLayer] = ()
+) -> Gazetteer:
     """Read all objects of a map's file that a passer-by could name; raise MapError if it cannot be read.
 
-    `counts` are increased.
+    `counts` are increased, and `extras` join.
     """
     objects, pieces, walked = GazetteerBuilder(), StreetPieces(), Spool()
     walked.add({"segments_m": concatenate_segments([])})
-    for batch in _read_batches(path, counts or ReadingCounts()):
+    for batch in chain(_read_batches(path, counts or ReadingCounts()), batched(_extra_objects(extras))):
         with_segments = list(zip(batch, _batch_segments(batch, frame), strict=True))
         pieces.add([_street_piece(item, segments, frame) for item, segments in with_segments if item.nodes])
         lines = [segments for item, segments in with_segments if item.object is _WALKED_OBJECT]
@@ -111,6 +115,16 @@ def _read(processor: Any, vocabulary: Vocabulary, counts: ReadingCounts) -> Iter
         yield from placed
 
 
+def _extra_objects(extras: Sequence[ExtraLayer]) -> Iterator[_OsmObject]:
+    """Yield the objects of a city's own data."""
+    vocabulary = load_vocabulary()
+    for item in chain.from_iterable(layer.objects for layer in extras):
+        known = _object(dict(item.tags), vocabulary, item.source_id, item.label)
+        if known is not None:
+            is_area = shapely.get_dimensions(item.geometry) == 2
+            yield _OsmObject(shapely.to_wkb(item.geometry, hex=True), known, is_area, {})
+
+
 def _with_geometry(
     element: Any,
     create: dict[str, Any],
@@ -137,8 +151,13 @@ def _street_object(tags: dict[str, str], element: Any) -> GazetteerObject:
     return GazetteerObject((STREET_KIND,), _names(tags), source_id=f"way/{element.id}")
 
 
-def _object(tags: dict[str, str], vocabulary: Vocabulary, source_id: str) -> GazetteerObject | None:
-    """Return the kinds, names and address of an object; None if nobody would name it."""
+def _object(
+    tags: dict[str, str], vocabulary: Vocabulary, source_id: str, own_kind: str | None = None
+) -> GazetteerObject | None:
+    """Return the kinds, names and address of an object; None if nobody would name it.
+
+    `own_kind` replaces the kinds that its tags give.
+    """
     if tags.get("highway") in UNBUILT_HIGHWAYS:
         return None
     if (
@@ -148,7 +167,7 @@ def _object(tags: dict[str, str], vocabulary: Vocabulary, source_id: str) -> Gaz
         and "name" not in tags
     ):
         return None
-    kinds, names = vocabulary.kinds_of(tags), _names(tags)
+    kinds, names = (own_kind,) if own_kind else vocabulary.kinds_of(tags), _names(tags)
     number, street = tags.get("addr:housenumber"), tags.get("addr:street") or tags.get("addr:place")
     if not kinds and number and street:
         kinds = (ADDRESS_KIND,)

@@ -17,7 +17,6 @@ from models.citymap.points import Ints
 from models.citymap.scenery.shapes import DrawnObjects, Outlines, OutlinesBuilder
 from models.citymap.types import CutRules, Floats, MapShape
 from models.processes import map_forked
-from models.sources.osm.classes import load_classes
 from models.sources.osm.feature_strips import FeatureInstances, FeatureStrips
 from models.sources.osm.features import Feature
 from models.strings import Categorical
@@ -61,7 +60,7 @@ def _import_strip(
         drawing=DrawnObjects.from_shapes([_shape(each.feature) for each in owned], rank),
         instance=instances.feature_instance[[each.number for each in first]],
         names=[each.feature.name for each in first],
-        sources=np.array([each.feature.source_id for each in first], np.bytes_),
+        sources=np.array([each.feature.source_id.encode() for each in first], np.bytes_),
         rgb=np.array([each.feature.rgb or UNKNOWN_RGB for each in first], np.float32).reshape(-1, 3),
     )
 
@@ -85,7 +84,7 @@ class ImportedMap:
     @classmethod
     def from_strips(cls, strips: FeatureStrips, rules: CutRules | None = None) -> "ImportedMap":
         """Import features in several processes, some strips at a time, without pieces that no cell of `rules` needs."""
-        instances, classes = FeatureInstances.join(strips), load_classes()
+        instances, classes = FeatureInstances.join(strips), strips.classes
         blocks = None
         if rules is not None:
             rich = BlockSet.concatenate(list(map_forked(partial(_find_rich_blocks, strips, rules), strips.numbers)))
@@ -116,7 +115,7 @@ class _StripImporter:
         count = len(instances.first)
         self._strips, self._instances, self._blocks, self.drawings = strips, instances, blocks, drawings
         self.names = dict[int, str]()  # by number of the instance
-        self.sources = np.empty(count, "S32")
+        self.sources = np.empty(count, f"S{strips.max_source_bytes}")
         self.rgb = np.empty((count, 3), np.float32)
 
     def rows(self) -> Iterator[PieceRows]:

@@ -7,7 +7,7 @@ surface tags.
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from itertools import islice
+from itertools import chain, islice
 from math import cos, radians
 from pathlib import Path
 from typing import Any, Final, TypeVar
@@ -22,6 +22,7 @@ from models.citymap.geometry.tiling import Geometries
 from models.citymap.points import Ints
 from models.citymap.types import CityMap, CutRules, Floats
 from models.errors import MapError
+from models.sources.extras.layer import ExtraLayer
 from models.sources.osm.classes import OsmClass, find_class, load_classes
 from models.sources.osm.feature_strips import FeatureStrips
 from models.sources.osm.features import Feature, build_feature
@@ -54,14 +55,18 @@ Box = tuple[float, float, float, float]  # west, south, east, north in degrees; 
 Batch = tuple[list[_Element], Geometries]  # with the geometry of each, in degrees
 
 
-def load_osm(path: Path, name: str | None = None) -> CityMap:
+def load_osm(path: Path, name: str | None = None, extras: Sequence[ExtraLayer] = ()) -> CityMap:
     """Read an OpenStreetMap file into a city map, in a local frame at the middle of the extract.
 
-    Its default name is the file's up to the first dot. Raise MapError if the file is missing, not usable or too large.
+    Its default name is the file's up to the first dot. `extras` join it. Raise MapError if the file is missing, not
+    usable or too large.
     """
     frame, box = read_frame_and_box(path)
+    used = dict.fromkeys(item.osm_class for layer in extras for item in layer.objects if item.osm_class is not None)
+    classes = (*load_classes(), *(row for row in used if row not in load_classes()))
+    features = chain(read_features(path, frame, box), _extra_features(extras, classes, frame))
     with spool_directory() as directory:
-        strips = FeatureStrips(directory, read_features(path, frame, box))
+        strips = FeatureStrips(directory, features, classes)
         if not strips.numbers:
             raise MapError(f"{path}: it has nothing inside its own bounds; download it again, or correct its bounds")
         return _city_map(name or path.name.split(".")[0], strips, frame)
@@ -82,6 +87,21 @@ def read_features(path: Path, frame: Frame, box: Box | None) -> Iterator[list[Fe
     """Yield the features of a file, in metres and clipped to a box if given, in batches; errors as `load_osm`."""
     for elements, lon_lat in _read_elements(path):
         yield list(_build_features(elements, lon_lat, frame, box))
+
+
+def _extra_features(extras: Sequence[ExtraLayer], classes: Sequence[OsmClass], frame: Frame) -> Iterator[list[Feature]]:
+    """Yield the features of a city's own data, with their rows in `classes`, in batches."""
+    number = {row: n for n, row in enumerate(classes)}
+    objects = ((item, item.osm_class) for layer in extras for item in layer.objects if item.osm_class is not None)
+    for batch in batched(objects):
+        elements = [_Element("", row, number[row], dict(item.tags), item.source_id) for item, row in batch]
+        yield list(_build_features(elements, np.array([item.geometry for item, _ in batch]), frame, None))
+
+
+def read_bounds(path: Path) -> Box:
+    """Return the box of a file: its header's, or that of its elements; errors as `load_osm`."""
+    box = read_frame_and_box(path)[1]
+    return _total_bounds(_read_elements(path)) if box is None else box
 
 
 def _build_features(

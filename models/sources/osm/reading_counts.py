@@ -21,6 +21,8 @@ class ReadingCounts:
     scripts: Counter[str] = field(default_factory=Counter)  # first names of elements, by script
     languages: Counter[str] = field(default_factory=Counter)  # elements with a name tagged in a language
 
+    extras: Counter[str] = field(default_factory=Counter)  # objects of a city's own data, by file and kind
+
     def add_names(self, name: str, tags: Mapping[str, str]) -> None:
         """Count the script of an element's first name, and the languages of all its names."""
         if script := script_of(name):

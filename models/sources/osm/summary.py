@@ -1,7 +1,7 @@
 """Summarize an OpenStreetMap file: how large it is, and what descriptions can name there."""
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Final
 
@@ -13,6 +13,7 @@ from models.citymap.gazetteer.name_columns import STREET_KIND
 from models.citymap.kinds.vocabulary import load_vocabulary
 from models.citymap.summary import MapSummary
 from models.citymap.types import Floats
+from models.sources.extras.layer import ExtraLayer
 from models.sources.osm.gazetteer import load_gazetteer
 from models.sources.osm.map import Box, read_frame_and_box
 from models.sources.osm.reading_counts import ReadingCounts
@@ -23,32 +24,37 @@ NO_KINDS: Final = (ADDRESS_KIND, STREET_KIND, WALKED_KIND)
 SEGMENTS_PER_BLOCK: Final = 2**18  # bounds the temporary arrays
 
 
-def load_gazetteer_and_summary(path: Path) -> tuple[Gazetteer, MapSummary]:
-    """Read the gazetteer and the summary of a file; raise MapError if it cannot be read."""
+def load_gazetteer_and_summary(path: Path, extras: Sequence[ExtraLayer] = ()) -> tuple[Gazetteer, MapSummary]:
+    """Read the gazetteer and the summary of a file, which extras join; raise MapError if it cannot be read."""
     frame, box = read_frame_and_box(path)
     counts = ReadingCounts()
-    gazetteer = load_gazetteer(path, frame, counts)
+    for layer in extras:
+        counts.extras[str(layer)] += len(layer.objects)
+        counts.dropped[f"outside the map, in {layer.name}"] += layer.outside
+        counts.dropped[f"no position, in {layer.name}"] += layer.unplaced
+    gazetteer = load_gazetteer(path, frame, counts, extras)
     return gazetteer, summarize(gazetteer, frame, box, counts)
 
 
 def summarize(gazetteer: Gazetteer, frame: Frame, box: Box | None, counts: ReadingCounts) -> MapSummary:
     """Summarize a file by its gazetteer, its header's box (None for the bounds of all objects) and its counts."""
     low_m, high_m = _bounds_m(gazetteer.segments_m) if box is None else _corners_m(frame, box)
-    objects = gazetteer.objects
+    objects, is_inside = gazetteer.objects, gazetteer.overlaps(low_m, high_m)
     return MapSummary(
         bbox=_bbox(frame, low_m, high_m) if box is None else box,
         width_km=float(high_m[0] - low_m[0]) / 1000,
         height_km=float(high_m[1] - low_m[1]) / 1000,
         walkable_km=_walkable_m(gazetteer, low_m, high_m) / 1000,
-        objects=len(gazetteer),
-        streets=len(gazetteer.streets),
-        named_objects=int((objects.has_name & ~objects.is_street).sum()),
-        house_numbers=int(objects.has_number.sum()),
-        kinds=_frequent_kinds(objects.count_kinds()),
+        objects=int(is_inside.sum()),
+        streets=int((objects.is_street & is_inside).sum()),
+        named_objects=int((objects.has_name & ~objects.is_street & is_inside).sum()),
+        house_numbers=int((objects.has_number & is_inside).sum()),
+        kinds=_frequent_kinds(objects.count_kinds(is_inside)),
         scripts=dict(counts.scripts.most_common()),
         languages=dict(counts.languages.most_common(MAX_LANGUAGES)),
+        extras=dict(counts.extras),
         cut=dict(counts.cut.most_common()),
-        dropped=dict(counts.dropped.most_common()),
+        dropped=dict((+counts.dropped).most_common()),
         repaired=dict(counts.repaired.most_common()),
     )
 

@@ -99,12 +99,13 @@ def test_fault_is_not_taken_for_wrong_input(opened):
     assert isinstance(run("localize", TEXT).exception, ZeroDivisionError)
 
 
-def test_index_builds_and_says_what_next(monkeypatch):
-    calls, regions = [], []
+def test_index_builds_and_says_what_next(monkeypatch, tmp_path):
+    calls, regions, layers = [], [], []
 
     def job(map_path, out_dir, weights_dir, *rest):
         calls.append((map_path, out_dir, weights_dir))
-        regions.append(rest[-1])
+        regions.append(rest[-2])
+        layers.append(rest[-1])
 
         def build(_show):
             if map_path.name == "bad":
@@ -122,8 +123,16 @@ def test_index_builds_and_says_what_next(monkeypatch):
     assert regions == [None, None]
     assert run("index", "--map", "a.osm", "--within", "1,2,3,4").exit_code == 0
     assert regions[-1].shape.bounds == (1, 2, 3, 4)
+    for name in ("x.csv", "y.csv"):
+        (tmp_path / name).write_text("lat,lon\n1,2\n")
+    pairs = "--extra", str(tmp_path / "x.csv"), "--kind", "bench", "--extra", str(tmp_path / "y.csv"), "--kind", "robot"
+    assert run("index", "--map", "a.osm", *pairs).exit_code == 0
+    assert list(map(str, layers[-1])) == ["x.csv as amenity=bench", "y.csv as robot"]
+    result = run("index", "--map", "a.osm", *pairs[:-2])
+    assert (result.exit_code, len(calls)) == (2, 4)
+    assert "each --extra needs a --kind" in result.stderr
     result = run("index", "--map", "a.osm", "--within", "here")
-    assert (result.exit_code, len(calls)) == (1, 3)
+    assert (result.exit_code, len(calls)) == (1, 4)
     assert "west,south,east,north" in result.stderr
 
 

@@ -23,7 +23,7 @@ def calls(monkeypatch):
     made = []
 
     class Job:
-        def __init__(self, map_path, out_dir, _weights_dir, _split, keep_current, levels, store, _region):
+        def __init__(self, map_path, out_dir, _weights_dir, _split, keep_current, levels, store, _region, _extras):
             self.given = map_path, out_dir, keep_current, levels, store
 
         def make_shard(self, shard, _show):

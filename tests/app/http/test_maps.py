@@ -22,6 +22,7 @@ SUMMARY = MapSummary(
     kinds={"cafe": 82},
     scripts={"latin": 2656},
     languages={"fi": 1068},
+    extras={"bins.geojson as amenity=waste_basket": 380},
     cut={},
     dropped={"the outline is broken": 2},
     repaired={},

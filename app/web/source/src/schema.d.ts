@@ -1633,6 +1633,9 @@ export interface components {
          *         ],
          *         "cut": {},
          *         "dropped": {},
+         *         "extras": {
+         *           "bins.geojson as amenity=waste_basket": 380
+         *         },
          *         "height_km": 1.67,
          *         "house_numbers": 1445,
          *         "kinds": {
@@ -1732,6 +1735,13 @@ export interface components {
              * @description elements with a name tagged in each of the most frequent languages
              */
             languages: {
+                [key: string]: number;
+            };
+            /**
+             * Extras
+             * @description objects of the city's own data, by file and kind
+             */
+            extras: {
                 [key: string]: number;
             };
             /**
