@@ -58,7 +58,7 @@ def print_index_summary(directory: Path) -> None:
 def _rows(name: str, summary: "MapSummary") -> Iterator[tuple[str, str]]:
     size = f"{summary.width_km:,.2f} x {summary.height_km:,.2f} km"
     yield "map", f"{name}: {size}, box {','.join(f'{degrees:.5f}' for degrees in summary.bbox)}"
-    yield "walkable", f"{summary.walkable_km:,.0f} km of streets and paths"
+    yield "walkable", f"{summary.walkable_km:,.{0 if summary.walkable_km >= 10 else 1}f} km of streets and paths"
     yield "streets", f"{summary.streets:,} with a name"
     yield "objects", f"{summary.objects:,}, of which {summary.named_objects:,} have a name"
     yield "kinds", _counts(summary.kinds)

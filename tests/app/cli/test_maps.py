@@ -22,7 +22,7 @@ def test_check_shows_a_map_on_a_screen_without_an_index(osm_file, tmp_path, monk
     monkeypatch.chdir(tmp_path)
     result = run("check", osm_file)
     assert result.exit_code == 0
-    assert re.search(r"^walkable +4 km of streets and paths", result.stdout, re.MULTILINE)
+    assert re.search(r"^walkable +3\.6 km of streets and paths", result.stdout, re.MULTILINE)
     assert re.search(r"^streets +12 with a name", result.stdout, re.MULTILINE)
     assert re.search(r"^index +about \d+ s .*\d MB \(estimated", result.stdout, re.MULTILINE)
     assert re.search(r"^note +there are no house numbers", result.stdout, re.MULTILINE)
