@@ -34,8 +34,9 @@ from models.language.text_encoder import TextEncoder, load_text_encoder
 from models.paper.checkpoint import save_retriever
 from models.paper.mncl import Mncl, MnclConfig
 from models.sources.kitti360.job import prepare_data
+from models.sources.osm.extent import read_extent
 from models.sources.osm.feature_strips import FeatureInstances, FeatureStrips
-from models.sources.osm.map import load_osm, read_features, read_frame_and_box
+from models.sources.osm.map import load_osm, read_features
 from models.sources.source import MapSource
 from tests.milvus_server import SKIPPED, MilvusServer
 from tests.models.sources.raw_scenes import TEST_STREET, TRAIN_STREETS, VAL_STREET, write_towns
@@ -163,7 +164,7 @@ def scan(osm_file: Path, city: CityMap) -> CityMap:
     """The same town as points."""
     xyz: dict[str | None, list[Any]] = {}
     with TemporaryDirectory() as directory:
-        strips = FeatureStrips(Path(directory), read_features(osm_file, *read_frame_and_box(osm_file)))
+        strips = FeatureStrips(Path(directory), read_features(osm_file, read_extent(osm_file)))
         joined = FeatureInstances.join(strips)
         placed = {each.number: each.feature for number in strips.numbers for each in strips.read(number)}
     for number in np.argsort(joined.rank):

@@ -2,6 +2,7 @@
 # ruff: noqa: PLC0415
 
 import json
+import signal
 import sys
 from dataclasses import asdict
 from functools import partial
@@ -130,6 +131,8 @@ def index(
     from index.build.build import IndexJob
     from models.sources.osm.extract import Region
 
+    # leave the blocks that remove temporary files, as an interrupt from the keyboard does
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
     extras = read_extras(extra or [], kind or [])
     region = None if within is None else Region.parse(within, map_path)
     arguments = map_path, out, load_settings().weights_dir, split, keep_current, levels

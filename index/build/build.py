@@ -24,8 +24,8 @@ from models.posterior.neighbours.neighbour_index import build_neighbour_index
 from models.posterior.neighbours.scan_index import ScanNeighbourIndex
 from models.processes import forked
 from models.sources.extras.layer import ExtraLayer
+from models.sources.osm.extent import read_extent
 from models.sources.osm.extract import Region, extracted_file
-from models.sources.osm.map import read_bounds
 from models.sources.source import open_source
 from models.spool import spool_directory, spooling_in
 
@@ -177,7 +177,7 @@ class IndexJob:
                 return
             if path.is_dir():
                 raise DataError(f"{path}: --extra needs an OpenStreetMap file; leave it out, or give such a file")
-            box = read_bounds(path)
+            box = read_extent(path).bounds
             yield path, [layer.clip(box) for layer in self.extras]
 
     def _current_version(self, models: _LoadedModels) -> Path | None:

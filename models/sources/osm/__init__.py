@@ -1,8 +1,9 @@
-"""OpenStreetMap as a city map: `map` reads elements by classes.toml, `feature_strips` and `imported_map` import them.
+"""OpenStreetMap as a city map: `map` builds it, through `features`, `feature_strips` and `imported_map`.
 
-`gazetteer` reads named objects, `extract` takes a region of a file, `city_copies` makes a large city of copies, whose
-streets `copy_names` renames. `places` lists named areas, `summary` says what a file is good for. May import
-models.citymap, its gazetteer and kinds.
+`elements` reads what has a class, `gazetteer` what can be named, `incomplete` what an extract has cut of both.
+`extent` finds where a map is, `reading` and `ordering` open files, `tags` leaves out what is not on the ground,
+`summary` counts. `extract` takes a region of a file, or one of its `places`; `city_copies` makes a large city of
+copies, whose streets `copy_names` renames. May import models.citymap, its gazetteer and kinds.
 """
 
 import os

@@ -10,7 +10,7 @@ import osmium
 
 from models.errors import MapError
 from models.sources.osm.copy_names import CopyNames, ExtractNames
-from models.sources.osm.map import SUFFIXES, explained_errors
+from models.sources.osm.reading import SUFFIXES, explained_errors
 
 UNITS_PER_DEGREE: Final = 10_000_000  # OpenStreetMap stores coordinates in these units
 BOX_MARGIN_UNITS: Final = 1000  # around the nodes of a file without a box, for features drawn wider than their line

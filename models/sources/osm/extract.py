@@ -11,8 +11,9 @@ import shapely
 from shapely.errors import ShapelyError
 
 from models.errors import MapError
-from models.sources.osm.map import SUFFIXES, explained_errors
+from models.sources.osm.ordering import ordered_file
 from models.sources.osm.places import find_place
+from models.sources.osm.reading import SUFFIXES, explained_errors, open_writer, read_osm
 from models.spool import spool_directory
 
 PLACE_PREFIX = "place:"
@@ -59,15 +60,16 @@ def _parse_geojson(text: str) -> shapely.Geometry:
 @contextmanager
 def extracted_file(path: Path, region: Region | None) -> Iterator[Path]:
     """Yield a file with the part of a file in a region (the file itself without a region), until the block ends."""
-    if region is None:
-        yield path
-        return
-    if not path.is_file() or not path.name.lower().endswith(SUFFIXES):
-        raise MapError(f"{path}: --within needs an OpenStreetMap file; leave it out, or give such a file")
-    with spool_directory() as directory:
-        out = directory / f"{path.name.split('.')[0]}.osm.pbf"
-        extract(path, region, out)
-        yield out
+    with ordered_file(path) as ordered:
+        if region is None:
+            yield ordered
+            return
+        if not path.is_file() or not path.name.lower().endswith(SUFFIXES):
+            raise MapError(f"{path}: --within needs an OpenStreetMap file; leave it out, or give such a file")
+        with spool_directory() as directory:
+            out = directory / f"{path.name.split('.')[0]}.osm.pbf"
+            extract(ordered, region, out)
+            yield out
 
 
 def extract(path: Path, region: Region, out: Path) -> None:
@@ -82,9 +84,9 @@ def extract(path: Path, region: Region, out: Path) -> None:
         taken = _nodes_inside(path, region.shape)
         taken.complete_forward_references(str(path))
         taken.complete_backward_references(str(path), relation_depth=1)
-        with osmium.SimpleWriter(str(out), header=header) as writer:
-            for element in osmium.FileProcessor(str(path)).with_filter(taken.id_filter()):
-                writer.add(element)
+    with open_writer(out, header) as writer:
+        for element in read_osm(path, taken.id_filter()):
+            writer.add(element)
 
 
 def _nodes_inside(path: Path, shape: shapely.Geometry) -> osmium.IdTracker:

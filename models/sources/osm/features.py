@@ -65,7 +65,7 @@ def build_feature(
         height_m=_height_m(tags, row.height_m),
         base_m=_parse_m(tags.get("min_height", "")) or STOREY_M * (_parse_m(tags.get("building:min_level", "")) or 0.0),
         rgb=next((rgb for rgb in (*colours, *materials) if rgb), None),
-        name=tags.get("name:en") or tags.get("name"),
+        name=tags.get("name:en") or tags.get("name") or None,
         source_id=source_id,
         axis=axis,
         width_m=width,

@@ -24,8 +24,12 @@ from models.citymap.gazetteer.streets import StreetPiece, StreetPieces, join_str
 from models.citymap.kinds.vocabulary import Vocabulary, load_vocabulary
 from models.citymap.types import Floats
 from models.sources.extras.layer import ExtraLayer
-from models.sources.osm.map import batched, explained_errors, geometry_factories, source_id
+from models.sources.osm.extent import MAX_SIDE_KM
+from models.sources.osm.incomplete import IncompleteAreas, known_line
+from models.sources.osm.ordering import ordered_file
+from models.sources.osm.reading import batched, explained_errors, geometry_factories, located_elements, source_id
 from models.sources.osm.reading_counts import ReadingCounts
+from models.sources.osm.tags import read_tags
 from models.spool import Spool
 
 NAME_KEYS = (
@@ -44,6 +48,8 @@ WALKED_HIGHWAYS = frozenset(
         "secondary", "primary", "service", "cycleway",
     )
 )  # fmt: skip
+PLACES_WITH_OUTLINE = frozenset(("square", "city_block", "islet", "plot"))  # values of "place"
+CUT_REASON = "a part is not in the file"
 SIMPLIFY_TOLERANCE_M = 0.5  # greatest distance of a geometry from the mapped one
 MAX_NAMES = 12  # of an object; some have a name in each of a hundred languages
 _WALKED_OBJECT = GazetteerObject((WALKED_KIND,))
@@ -65,10 +71,15 @@ def load_gazetteer(
 
     `counts` are increased, and `extras` join.
     """
+    with ordered_file(path) as ordered:
+        return _load_gazetteer(ordered, frame, counts or ReadingCounts(), extras)
+
+
+def _load_gazetteer(path: Path, frame: Frame, counts: ReadingCounts, extras: Sequence[ExtraLayer]) -> Gazetteer:
     objects, pieces, walked = GazetteerBuilder(), StreetPieces(), Spool()
     walked.add({"segments_m": concatenate_segments([])})
-    for batch in chain(_read_batches(path, counts or ReadingCounts()), batched(_extra_objects(extras))):
-        with_segments = list(zip(batch, _batch_segments(batch, frame), strict=True))
+    for batch in chain(_read_batches(path, counts), batched(_extra_objects(extras))):
+        with_segments = _with_segments(batch, frame)
         pieces.add([_street_piece(item, segments, frame) for item, segments in with_segments if item.nodes])
         lines = [segments for item, segments in with_segments if item.object is _WALKED_OBJECT]
         walked.add({"segments_m": concatenate_segments(lines)})
@@ -83,36 +94,58 @@ def load_gazetteer(
 
 
 def _read_batches(path: Path, counts: ReadingCounts) -> Iterator[list[_OsmObject]]:
-    with explained_errors(path):
-        yield from batched(_read(osmium.FileProcessor(str(path)).with_areas(), load_vocabulary(), counts))
+    with explained_errors(path), located_elements(path) as processor:
+        yield from batched(_read(processor.with_areas(), path, load_vocabulary(), counts))
 
 
-def _read(processor: Any, vocabulary: Vocabulary, counts: ReadingCounts) -> Iterator[_OsmObject]:
-    create = geometry_factories()
+def _read(processor: Any, path: Path, vocabulary: Vocabulary, counts: ReadingCounts) -> Iterator[_OsmObject]:
+    create, incomplete = geometry_factories(), IncompleteAreas()
     for element in processor:
         form = element.type_str()
-        if form not in create or not element.tags:
+        if not element.tags:
             continue
-        tags = {tag.k: tag.v for tag in element.tags}
+        tags = read_tags(element.tags)
         if form == "w" and tags.get("highway") in WALKED_HIGHWAYS and tags.get("indoor") != "yes":
             yield from _with_geometry(element, create, "w", _WALKED_OBJECT)
         is_street = form == "w" and "highway" in tags and tags["highway"] not in NON_STREET_HIGHWAYS and _has_name(tags)
-        if form == "w" and not is_street and element.is_closed() and not _is_line(tags):
-            continue  # osmium yields it again as an area
+        if form == "a":
+            incomplete.note_area(element)
+        if form == "r" or (form == "w" and element.is_closed() and not _is_line(tags)):
+            incomplete.expect(element, tags)
+            if not is_street:
+                continue  # osmium yields it again as an area
         if is_street and (tags.get("indoor") == "yes" or tags.get("level", "0").startswith("-")):
             continue
-        if form == "a" and (_is_line(tags) or tags.get("indoor") == "room"):
+        if form == "a" and not _is_outdoor_area(tags):
             continue
         item = _street_object(tags, element) if is_street else _object(tags, vocabulary, source_id(element, form))
         if item is None:
             continue
         nodes = {n.ref: (n.lon, n.lat) for n in element.nodes if n.location.valid()} if is_street else {}
-        placed = list(_with_geometry(element, create, form, item, nodes))
-        if not placed:
-            counts.dropped["a part is not in the file, or the outline is broken"] += 1
-        elif item.names:
+        placed = list(_with_geometry(element, create, form, item, nodes, counts))
+        if placed and item.names:
             counts.add_names(item.names[0], tags)
         yield from placed
+    yield from _read_incomplete(incomplete, path, vocabulary, counts)
+
+
+def _read_incomplete(
+    incomplete: IncompleteAreas, path: Path, vocabulary: Vocabulary, counts: ReadingCounts
+) -> Iterator[_OsmObject]:
+    for area in incomplete.read(path):
+        item = _object(area.tags, vocabulary, area.source_id) if _is_outdoor_area(area.tags) else None
+        if item is None:
+            continue
+        if _is_region(area.tags) and not area.is_area:
+            counts.dropped["too little of the border is in the file to tell what is inside"] += 1
+            continue
+        if area.is_cut:
+            counts.cut[CUT_REASON] += 1
+        else:
+            counts.repaired["the outline crosses itself or is open"] += 1
+        if item.names:
+            counts.add_names(item.names[0], area.tags)
+        yield _OsmObject(shapely.to_wkb(area.shape, hex=True), item, area.is_area, {})
 
 
 def _extra_objects(extras: Sequence[ExtraLayer]) -> Iterator[_OsmObject]:
@@ -131,11 +164,30 @@ def _with_geometry(
     form: str,
     item: GazetteerObject,
     nodes: dict[int, tuple[float, float]] | None = None,
+    counts: ReadingCounts | None = None,
 ) -> Iterator[_OsmObject]:
+    """Yield an object with its geometry, of a way its known part; nothing if nothing is known."""
+    counts = counts or ReadingCounts()
     try:
-        yield _OsmObject(create[form](element), item, form == "a", nodes or {})
-    except (osmium.InvalidLocationError, RuntimeError):
-        return  # nodes left out by the extract, or a broken ring
+        wkb = create[form](element)
+    except (osmium.InvalidLocationError, RuntimeError):  # nodes that the extract left out, or a broken ring
+        line = known_line(element) if form == "w" else None
+        if line is None:
+            # what is left of an area comes later
+            counts.dropped["no part of it is in the file"] += form != "a"
+            return
+        counts.cut[CUT_REASON] += 1
+        wkb = shapely.to_wkb(line, hex=True)
+    yield _OsmObject(wkb, item, form == "a", nodes or {})
+
+
+def _is_outdoor_area(tags: dict[str, str]) -> bool:
+    return not _is_line(tags) and tags.get("indoor") != "room"
+
+
+def _is_region(tags: dict[str, str]) -> bool:
+    """Whether people know an area by what is inside, because nothing marks its outline."""
+    return "boundary" in tags or tags.get("place", "square") not in PLACES_WITH_OUTLINE
 
 
 def _has_name(tags: dict[str, str]) -> bool:
@@ -148,7 +200,7 @@ def _is_line(tags: dict[str, str]) -> bool:
 
 
 def _street_object(tags: dict[str, str], element: Any) -> GazetteerObject:
-    return GazetteerObject((STREET_KIND,), _names(tags), source_id=f"way/{element.id}")
+    return GazetteerObject((STREET_KIND,), _names(tags), source_id=source_id(element, "w"))
 
 
 def _object(
@@ -187,10 +239,14 @@ def _names(tags: dict[str, str]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(name for name in names if name))[:MAX_NAMES]
 
 
-def _batch_segments(batch: Sequence[_OsmObject], frame: Frame) -> Iterator[Floats]:
+def _with_segments(batch: Sequence[_OsmObject], frame: Frame) -> list[tuple[_OsmObject, Floats]]:
+    """Return objects with their segments, without those that are too far away to be in the map."""
     lon_lat = shapely.from_wkb([item.wkb for item in batch])
     shapes = shapely.transform(lon_lat, lambda xy: frame.from_wgs84(xy[:, 1], xy[:, 0]))
-    return map(_segments, shapely.simplify(shapes, SIMPLIFY_TOLERANCE_M, preserve_topology=True))
+    is_near = (np.abs(shapely.bounds(shapes)) < MAX_SIDE_KM * 1000).all(axis=1)
+    simple = shapely.simplify(shapes[is_near], SIMPLIFY_TOLERANCE_M, preserve_topology=True)
+    near = [batch[row] for row in np.flatnonzero(is_near).tolist()]
+    return list(zip(near, map(_segments, simple), strict=True))
 
 
 def _segments(shape: shapely.Geometry) -> Floats:

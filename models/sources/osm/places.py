@@ -13,7 +13,8 @@ import shapely
 from rapidfuzz import fuzz, process
 
 from models.errors import MapError
-from models.sources.osm.map import KM_PER_DEGREE, SUFFIXES, explained_errors
+from models.sources.osm.extent import KM_PER_DEGREE
+from models.sources.osm.reading import SUFFIXES, explained_errors
 
 NAME_KEY: Final = re.compile(r"(?:alt_|int_|loc_|nat_|official_|old_|reg_|short_)?name(?::.+)?")
 AREA_TYPES: Final = ("boundary", "multipolygon")  # of relations that enclose an area

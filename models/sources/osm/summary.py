@@ -14,8 +14,9 @@ from models.citymap.kinds.vocabulary import load_vocabulary
 from models.citymap.summary import MapSummary
 from models.citymap.types import Floats
 from models.sources.extras.layer import ExtraLayer
+from models.sources.osm.extent import FAR_KM, Box, read_extent
 from models.sources.osm.gazetteer import load_gazetteer
-from models.sources.osm.map import Box, read_frame_and_box
+from models.sources.osm.ordering import ordered_file
 from models.sources.osm.reading_counts import ReadingCounts
 
 MAX_KINDS: Final = 12  # the most frequent ones
@@ -26,14 +27,20 @@ SEGMENTS_PER_BLOCK: Final = 2**18  # bounds the temporary arrays
 
 def load_gazetteer_and_summary(path: Path, extras: Sequence[ExtraLayer] = ()) -> tuple[Gazetteer, MapSummary]:
     """Read the gazetteer and the summary of a file, which extras join; raise MapError if it cannot be read."""
-    frame, box = read_frame_and_box(path)
     counts = ReadingCounts()
     for layer in extras:
         counts.extras[str(layer)] += len(layer.objects)
         counts.dropped[f"outside the map, in {layer.name}"] += layer.outside
         counts.dropped[f"no position, in {layer.name}"] += layer.unplaced
-    gazetteer = load_gazetteer(path, frame, counts, extras)
-    return gazetteer, summarize(gazetteer, frame, box, counts)
+    with ordered_file(path) as ordered:
+        extent = read_extent(ordered)
+        if extent.num_strays:
+            reason = f"more than {FAR_KM:.0f} km from the rest, such as {extent.farthest_stray}"
+            counts.dropped[reason] = extent.num_strays
+        if extent.is_box_ignored:
+            counts.repaired["bounds that have none of the nodes inside"] = 1
+        gazetteer = load_gazetteer(ordered, extent.frame, counts, extras)
+    return gazetteer, summarize(gazetteer, extent.frame, extent.box, counts)
 
 
 def summarize(gazetteer: Gazetteer, frame: Frame, box: Box | None, counts: ReadingCounts) -> MapSummary:

@@ -1,6 +1,7 @@
 import json
 import os
 import re
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -17,6 +18,7 @@ from app.cli.measure import SHIPPED_MAP
 from app.threads import THREAD_VARIABLES
 from models.citymap.frame import Frame
 from models.errors import IndexBroken, MapError
+from models.spool import spool_directory, spooling_in
 
 TEXT = "I am north of a gray building. A black pole is to my west."
 
@@ -134,6 +136,22 @@ def test_index_builds_and_says_what_next(monkeypatch, tmp_path):
     result = run("index", "--map", "a.osm", "--within", "here")
     assert (result.exit_code, len(calls)) == (1, 4)
     assert "west,south,east,north" in result.stderr
+
+
+def test_an_index_that_is_terminated_leaves_no_temporary_files(monkeypatch, tmp_path):
+    def work(*_):
+        with spooling_in(tmp_path), spool_directory() as directory:
+            (directory / "half").touch()
+            os.kill(os.getpid(), signal.SIGTERM)
+            signal.pause()
+
+    monkeypatch.setattr("app.cli.main.run_index_job", work)
+    before = signal.getsignal(signal.SIGTERM)
+    try:
+        assert run("index", "--map", "x.osm.pbf", "--out", str(tmp_path)).exit_code == 128 + signal.SIGTERM
+    finally:
+        signal.signal(signal.SIGTERM, before)
+    assert not list(tmp_path.iterdir())
 
 
 def test_places_of_a_map_are_listed_without_an_index(tmp_path):

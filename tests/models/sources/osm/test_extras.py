@@ -7,8 +7,9 @@ import pytest
 from models.citymap.kinds.vocabulary import load_vocabulary
 from models.language.mentions.lookup import Lookup
 from models.sources.extras.layer import ExtraLayer
+from models.sources.osm.extent import read_extent
 from models.sources.osm.gazetteer import load_gazetteer
-from models.sources.osm.map import load_osm, read_bounds, read_frame_and_box
+from models.sources.osm.map import load_osm
 
 LAT_M, LON_M = 1 / 111_412.0, 1 / 55_800.0
 POINT = {"type": "Point", "coordinates": [25.0 + 95 * LON_M, 60.0 + 95 * LAT_M]}
@@ -30,7 +31,7 @@ def layers(tmp_path, osm_file):
     features = [{"type": "Feature", "geometry": each, "properties": {"name": "Robo"}} for each in (POINT, LINE, AREA)]
     path = tmp_path / LONG_NAME
     path.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
-    box = read_bounds(osm_file)
+    box = read_extent(osm_file).bounds
     (tmp_path / "bins.csv").write_text(f"lat,lon\n{60 + 30 * LAT_M},{25 + 30 * LON_M}\n10,10\n")
     kinds = (path, "parcel robot"), (tmp_path / "bins.csv", "waste_basket")
     return [ExtraLayer.read(*each).clip(box) for each in kinds]
@@ -49,7 +50,7 @@ def test_objects_become_instances_of_their_class(layers, osm_file, city) -> None
 
 
 def test_objects_join_the_gazetteer_with_their_names_and_kinds(layers, osm_file) -> None:
-    frame = read_frame_and_box(osm_file)[0]
+    frame = read_extent(osm_file).frame
     gazetteer = load_gazetteer(osm_file, frame, extras=layers)
     robots = gazetteer.by_kind["parcel robot"]
     assert [gazetteer.objects[n].source_id for n in robots] == [f"{LONG_NAME}/{n}" for n in (1, 2, 3)]
@@ -62,7 +63,7 @@ def test_objects_join_the_gazetteer_with_their_names_and_kinds(layers, osm_file)
 
 
 def test_a_label_of_its_own_is_a_noun(layers, osm_file) -> None:
-    gazetteer = load_gazetteer(osm_file, read_frame_and_box(osm_file)[0], extras=layers)
+    gazetteer = load_gazetteer(osm_file, read_extent(osm_file).frame, extras=layers)
     lookup = Lookup(gazetteer, load_vocabulary(), lambda _word: False)
     assert lookup.kinds(("parcel", "robots")) == {"parcel robot": 1.0}
     assert len(lookup.of_kinds({"parcel robot": 1.0}).objects) == 3

@@ -208,19 +208,21 @@ def test_a_room_is_no_place_of_the_city(tmp_path, osm) -> None:
     assert names(osm.load(tmp_path)) == ["High Street"]
 
 
-def test_a_broken_ring_is_left_out(tmp_path, osm) -> None:
+def test_a_broken_ring_keeps_its_name(tmp_path, osm) -> None:
     half = osm.line((0, 0), (50, 0), (50, 50))
     osm.relation({half: "outer"}, type="multipolygon", leisure="park", name="Half Park")
     bow = [osm.node(position) for position in ((0, 0), (50, 50), (50, 0), (0, 50))]
     osm.way([*bow, bow[0]], leisure="park", name="Crossed Park")
     osm.node((5, 5), shop="bakery", name="Rossi")
-    assert names(osm.load(tmp_path)) == ["Rossi", "High Street"]
+    result = osm.load(tmp_path)
+    assert names(result) == ["Rossi", "Crossed Park", "Half Park", "High Street"]
+    assert result.is_area.tolist()[:3] == [False, True, False]
 
 
-def test_ways_whose_nodes_the_extract_lacks_are_left_out(tmp_path, osm) -> None:
+def test_a_way_has_what_the_extract_has_of_it(tmp_path, osm) -> None:
     osm.way([9001, 9002], highway="residential", name="Lost Street")
     osm.way([1], highway="residential", name="Dot Street")
-    assert names(osm.load(tmp_path)) == ["High Street"]
+    assert names(osm.load(tmp_path)) == ["High Street", "Dot Street"]
 
 
 def test_a_round_street_is_a_line_and_a_square_an_area(tmp_path, osm) -> None:

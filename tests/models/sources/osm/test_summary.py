@@ -39,7 +39,9 @@ def test_names_are_counted_by_script_and_language(tmp_path) -> None:
         for n, each in enumerate(tags, start=1)
     )
     path = tmp_path / "names.osm"
-    way = '<way id="1" version="1"><nd ref="1"/><nd ref="99"/><tag k="highway" v="primary"/><tag k="name" v="A"/></way>'
+    way = (
+        '<way id="1" version="1"><nd ref="98"/><nd ref="99"/><tag k="highway" v="primary"/><tag k="name" v="A"/></way>'
+    )
     path.write_text(f'<osm version="0.6">{nodes}{way}</osm>', encoding="utf-8")
     summary = load_gazetteer_and_summary(path)[1]
     assert summary.scripts == {"latin": 1, "cyrillic": 1, "arabic": 1}
@@ -61,3 +63,16 @@ def test_a_script_is_that_of_the_first_letter() -> None:
 def test_counts_begin_at_nothing_in_each_reading() -> None:
     ReadingCounts().dropped["a reason"] += 1
     assert not ReadingCounts().dropped
+
+
+def test_strays_and_useless_bounds_are_counted(tmp_path) -> None:
+    path = tmp_path / "town.osm"
+    street = '<way id="1"><nd ref="1"/><nd ref="2"/><tag k="highway" v="residential"/></way>'
+    bench = '<tag k="amenity" v="bench"/></node>'
+    path.write_text(
+        '<osm version="0.6"><bounds minlat="1" minlon="1" maxlat="2" maxlon="2"/><node id="1" lat="60" lon="25"/>'
+        f'<node id="2" lat="60" lon="25.001"/><node id="3" lat="0" lon="0">{bench}{street}</osm>'
+    )
+    summary = load_gazetteer_and_summary(path)[1]
+    assert summary.dropped == {"more than 50 km from the rest, such as node/3 at latitude 0, longitude 0": 1}
+    assert summary.repaired == {"bounds that have none of the nodes inside": 1}
