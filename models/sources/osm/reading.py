@@ -35,7 +35,7 @@ def explained_errors(path: Path) -> Iterator[None]:
         yield
     except (RuntimeError, ValueError, OSError, osmium.InvalidLocationError) as error:
         raise MapError(
-            f"{path}: cannot be read as OpenStreetMap ({error}); download it again, it may be cut short"
+            f"{path}: cannot be read as OpenStreetMap ({error}); correct it, or download it again if it was cut short"
         ) from error
 
 

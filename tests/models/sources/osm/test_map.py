@@ -259,6 +259,7 @@ def test_names_heights_and_widths_are_read(tmp_path) -> None:
         ("empty.osm.pbf", b"", "empty"),
         ("noise.osm.pbf", b"\x00\x00\x00\x0d\x0a\x09OSMHeaderjunk" * 50, "cannot be read"),
         ("noise.osm", b"this is no XML", "cannot be read"),
+        ("box.osm", (HEADER + '<bounds minlat="x"/></osm>').encode(), "wrong format for coordinate.*; correct it"),
         ("map.txt", b"hello", "not an OpenStreetMap file"),
         ("bare.osm", (HEADER + "</osm>").encode(), "no building, street"),
         (
