@@ -99,17 +99,45 @@ def grid_centers(locations_m: Floats, rules: CutRules) -> Floats:
     """Return the grid centres [N, 3] (float64) within reach of a location, at that location's height."""
     low = np.floor(locations_m[:, :2].min(axis=0) / rules.grid_m).astype(int)
     high = np.ceil(locations_m[:, :2].max(axis=0) / rules.grid_m).astype(int)
-    x, y = np.meshgrid(np.arange(low[0], high[0] + 1), np.arange(low[1], high[1] + 1), indexing="ij")
-    return centers_within_reach(np.column_stack([x.ravel(), y.ravel()]) * rules.grid_m, locations_m, rules.reach_m)
+    column, row = _squares_of(locations_m, rules.grid_m)
+    # A location in square n has the grid points n - reach to n + 1 + reach around it.
+    reach = int(rules.reach_m // rules.grid_m)
+    row, column = _spread(row, column, range(-reach, reach + 2), (low[1], high[1]))
+    column, row = _spread(column, row, range(-reach, reach + 2), (low[0], high[0]))
+    return centers_within_reach(np.column_stack([column, row]) * rules.grid_m, locations_m, rules.reach_m)
+
+
+def _squares_of(locations_m: Floats, edge_m: float) -> tuple[Ints, Ints]:
+    """Return the columns and rows [S] of the squares in which there are locations."""
+    return _unique_pairs(*np.floor(locations_m[:, :2] / edge_m).astype(np.int64).T)
+
+
+def _spread(moved: Ints, other: Ints, steps: range, ends: tuple[int, int]) -> tuple[Ints, Ints]:
+    """Return the distinct pairs that arise by adding each of some steps to `moved`, from `ends[0]` to `ends[1]`."""
+    moved, other = (moved[:, None] + np.array(steps)).ravel(), np.repeat(other, len(steps))
+    is_inside = (moved >= ends[0]) & (moved <= ends[1])
+    return _unique_pairs(moved[is_inside], other[is_inside])
+
+
+def _unique_pairs(first: Ints, second: Ints) -> tuple[Ints, Ints]:
+    """Return the distinct pairs of two columns of integers, ascending."""
+    low, span = second.min(), np.ptp(second) + 1
+    first, second = np.divmod(np.unique(first * span + (second - low)), span)
+    return first, second + low
 
 
 def centers_within_reach(grid_m: Floats, locations_m: Floats, reach_m: float) -> Floats:
-    """Return the points of a grid [G, 2] within reach of a location, as [N, 3] with the nearest location's height."""
+    """Return the points of a grid [G, 2] within reach of a location, as [N, 3] with the nearest location's height.
+
+    Fast if the points ascend from west to east.
+    """
     centers = [np.zeros((0, 3))]
+    eastward = np.argsort(locations_m[:, 0], kind="stable")
+    easting_m = locations_m[eastward, 0].astype(np.float64)
     for n in range(0, len(grid_m), GRID_POINTS_PER_BLOCK):
         block = grid_m[n : n + GRID_POINTS_PER_BLOCK]
-        low, high = block.min(axis=0) - reach_m, block.max(axis=0) + reach_m
-        nearby = locations_m[((locations_m[:, :2] >= low) & (locations_m[:, :2] <= high)).all(axis=1)]
+        begin, end = np.searchsorted(easting_m, [block[:, 0].min() - reach_m, block[:, 0].max() + reach_m])
+        nearby = locations_m[np.sort(eastward[begin:end])]
         if len(nearby):
             distance, nearest = cKDTree(nearby[:, :2]).query(block, distance_upper_bound=reach_m)
             near = np.isfinite(distance)

@@ -49,7 +49,7 @@ def closest_instances(
     return _closest_instances(
         points_m.astype(np.float64), point_starts.astype(np.int64), centers_m[:, :2].astype(np.float64),
         rules.cell_size_m / 2 - TILE_SLACK_M, float(reach_m), float(step_m), MIN_GROUP_SHARE * rules.min_part_points,
-        table.low, table.shape, table.tile_starts, table.tile, table.instance, table.form, table.point_count,
+        table.low, table.column_starts, table.row, table.tile, table.instance, table.form, table.point_count,
         table.bounds_m, table.crown_m, table.segment_starts, table.segments, table.link_starts, table.links,
     )  # fmt: skip
 
@@ -57,7 +57,7 @@ def closest_instances(
 @compiled
 def _closest_instances(
     points_m: Floats, point_starts: Ints, centers_m: Floats, half_m: float, reach_m: float, step_m: float,
-    min_count: float, low: Ints, shape: Ints, tile_starts: Ints, tile: Ints, instance: Ints, form: Ints,
+    min_count: float, low: Ints, column_starts: Ints, row: Ints, tile: Ints, instance: Ints, form: Ints,
     point_count: Floats, bounds_m: Floats, crown_m: Floats, segment_starts: Ints, segments: Steps, link_starts: Ints,
     links: Ints,
 ) -> tuple[Ints, Ints, npt.NDArray[np.int8]]:  # fmt: skip
@@ -68,7 +68,7 @@ def _closest_instances(
         own_points_m = points_m[point_starts[n] : point_starts[n + 1]]
         if len(own_points_m) == 0:
             continue
-        pieces, runs = pieces_near(own_points_m, reach_m + CROWN_M, low, shape, tile_starts)
+        pieces, runs = pieces_near(own_points_m, reach_m + CROWN_M, low, column_starts, row)
         order, starts = group_pieces(
             pieces, runs, centers_m[n], half_m, min_count, tile, instance, form, point_count, link_starts, links
         )

@@ -10,17 +10,40 @@ from models.compiled import compiled
 
 
 @compiled
-def pieces_near(points_m: Floats, reach_m: float, low: Ints, shape: Ints, tile_starts: Ints) -> tuple[Ints, Ints]:
+def first_from_row(column: int, row: int, column_starts: Ints, rows: Ints) -> int:
+    """Return the first piece of a column of tiles in a row or in a later one; see `PieceTable`."""
+    begin, end = column_starts[column], column_starts[column + 1]
+    while begin < end:
+        middle = (begin + end) // 2
+        if rows[middle] < row:
+            begin = middle + 1
+        else:
+            end = middle
+    return begin
+
+
+@compiled
+def first_from_rows(column: Ints, row: Ints, column_starts: Ints, rows: Ints) -> Ints:
+    """Return the first piece [n] of each column of tiles in a row or in a later one."""
+    first = np.empty(len(column), np.int64)
+    for n in range(len(column)):
+        first[n] = first_from_row(column[n], row[n], column_starts, rows)
+    return first
+
+
+@compiled
+def pieces_near(points_m: Floats, reach_m: float, low: Ints, column_starts: Ints, rows: Ints) -> tuple[Ints, Ints]:
     """Return the pieces in tiles within reach of points, and runs [R, 3]: first, end, position of the first."""
     first, last = np.empty(2, np.int64), np.empty(2, np.int64)
     for axis in range(2):
-        first[axis] = max(np.floor((points_m[:, axis].min() - reach_m) / TILE_M + 0.5) - low[axis], 0)
-        last[axis] = min(np.floor((points_m[:, axis].max() + reach_m) / TILE_M + 0.5) - low[axis], shape[axis] - 1)
-    columns = max(last[0] - first[0] + 1, 0) if first[1] <= last[1] else 0
+        first[axis] = np.floor((points_m[:, axis].min() - reach_m) / TILE_M + 0.5) - low[axis]
+        last[axis] = np.floor((points_m[:, axis].max() + reach_m) / TILE_M + 0.5) - low[axis]
+    first[0], last[0] = max(first[0], 0), min(last[0], len(column_starts) - 2)
+    columns = max(last[0] - first[0] + 1, 0)
     runs, count = np.empty((columns, 3), np.int64), 0
     for c in range(columns):
-        runs[c, 0] = tile_starts[(first[0] + c) * shape[1] + first[1]]
-        runs[c, 1] = tile_starts[(first[0] + c) * shape[1] + last[1] + 1]
+        runs[c, 0] = first_from_row(first[0] + c, first[1], column_starts, rows)
+        runs[c, 1] = first_from_row(first[0] + c, last[1] + 1, column_starts, rows)
         runs[c, 2] = count
         count += runs[c, 1] - runs[c, 0]
     pieces = np.empty(count, np.int64)

@@ -9,15 +9,14 @@ import numpy as np
 import numpy.typing as npt
 import shapely
 
+from models.citymap.geometry.groups import first_from_rows
 from models.citymap.geometry.piece_rows import PieceRows
 from models.citymap.geometry.segments import STEP_M, Steps, to_geometry
 from models.citymap.geometry.solids import THING
 from models.citymap.geometry.tiling import BEYOND_MAP_M, TILE_M, TOUCHING_M, Geometries
 from models.citymap.points import Ints, block_keys, ranges, thin_to_spacing
 from models.citymap.types import Floats
-from models.compiled import compiled
 from models.spool import row_blocks, spooled, starts_of
-from models.strings import compact
 
 PIECES_PER_BLOCK: Final = 20_000  # pieces whose geometries are built at a time, to bound memory
 TILE_COLUMNS_PER_BLOCK: Final = 64  # columns of tiles whose pieces are linked together
@@ -31,8 +30,8 @@ class PieceTable:
     """K pieces, in order of tile, then instance."""
 
     low: Ints  # [2] column and row of the first tile
-    shape: Ints  # [2] number of columns and rows
-    tile_starts: Ints  # [columns * rows + 1] tile (c, r) has the pieces tile_starts[c * rows + r] to the next
+    column_starts: Ints  # [C + 1] int32, column c of tiles has the pieces column_starts[c] to the next
+    row: Ints  # [K] uint16, or uint32 on maps of more than 655 km; row of each piece's tile, from the first one
     instance: Ints  # [K] int32
     form: Ints  # [K] index into FORMS
     dimension: Ints  # [K] int8 of its geometry: 0 for points, 1 for lines, 2 for areas
@@ -50,13 +49,17 @@ class PieceTable:
         """Build the table of a whole map, in columns on disk, from bands from west to east; one must have pieces."""
         columns = spooled({f.name: getattr(rows, f.name) for f in fields(PieceRows)} for rows in bands)
         column, row, sizes = (columns.pop(name) for name in ("column", "row", "sizes"))
-        low = np.array([column.min(), row.min()], dtype=np.int64)
-        shape = np.array([column.max(), row.max()], dtype=np.int64) - low + 1
-        tile_starts, segment_starts = starts_of(_pieces_per_tile(column, row, low, shape)), starts_of(sizes)
+        low, high = (np.array([ends(column), ends(row)], dtype=np.int64) for ends in (np.min, np.max))
+        row_type = np.uint16 if high[1] - low[1] <= np.iinfo(np.uint16).max else np.uint32
+        rows_of_pieces = spooled(
+            {"row": (block["row"] - low[1]).astype(row_type)} for block in row_blocks({"row": row})
+        )["row"]
+        column_starts = np.searchsorted(column, np.arange(low[0], high[0] + 2)).astype(np.int32)
+        segment_starts = starts_of(sizes)
         links = spooled(_find_links(column, row, segment_starts, columns))
         table = cls(
-            low, shape, tile_starts, segment_starts=segment_starts, link_starts=starts_of(links["sizes"]),
-            links=links["links"], **columns,
+            low, column_starts, rows_of_pieces, segment_starts=segment_starts,
+            link_starts=starts_of(links["sizes"]), links=links["links"], **columns,
         )  # fmt: skip
         tiles = (
             {"tile": np.stack([block["column"], block["row"]], 1)}
@@ -91,18 +94,16 @@ class PieceTable:
         links = self.links[ranges(self.link_starts[pieces], self.link_starts[pieces + 1])]
         source = np.repeat(np.arange(len(pieces)), np.diff(self.link_starts)[pieces])
         stays = is_taken[links]
-        columns = ("instance", "form", "dimension", "bounds_m", "heights_m", "crown_m", "point_count")
-        table = replace(
+        columns = ("row", "instance", "form", "dimension", "bounds_m", "heights_m", "crown_m", "point_count")
+        return replace(
             self,
-            tile_starts=compact(np.concatenate([[0], np.cumsum(is_taken)])[self.tile_starts]),
+            column_starts=np.concatenate([[0], np.cumsum(is_taken)])[self.column_starts].astype(np.int32),
             segment_starts=starts_of(np.diff(self.segment_starts)[pieces]),
             segments=self.segments[segments],
             link_starts=starts_of(np.bincount(source[stays], minlength=len(pieces))),
             links=number[links[stays]].astype(np.int32),
             **{name: getattr(self, name)[pieces] for name in columns},
         )
-        table.__dict__["tile"] = self.tile[pieces]
-        return table
 
     def geometry(self, pieces: Ints) -> Geometries:
         """Return the geometries [n] of some pieces, metres, map frame; a repeated piece is built once."""
@@ -111,19 +112,23 @@ class PieceTable:
 
     def in_tiles(self, first: Ints, last: Ints) -> tuple[Ints, Ints]:
         """Return rectangle [P], ascending, and piece [P] in rectangles of tiles, given their corners [n, 2]."""
-        first = np.maximum(first - self.low, 0)
-        last = np.minimum(last - self.low, self.shape - 1)
-        columns = np.maximum(last[:, 0] - first[:, 0] + 1, 0)
+        first, last = first - self.low, last - self.low
+        first_column, last_column = np.maximum(first[:, 0], 0), np.minimum(last[:, 0], len(self.column_starts) - 2)
+        columns = np.maximum(last_column - first_column + 1, 0)
         rectangle = np.repeat(np.arange(len(first)), columns)
-        column = ranges(first[:, 0], first[:, 0] + columns) * self.shape[1]
-        begin = self.tile_starts[column + np.minimum(first[rectangle, 1], self.shape[1])]
-        end = np.maximum(begin, self.tile_starts[column + np.maximum(last[rectangle, 1] + 1, 0)])
+        column = ranges(first_column, first_column + columns)
+        begin, end = (
+            first_from_rows(column, row[rectangle], self.column_starts, self.row)
+            for row in (first[:, 1], last[:, 1] + 1)
+        )
+        end = np.maximum(begin, end)
         return np.repeat(rectangle, end - begin), ranges(begin, end)
 
     @cached_property
     def tile(self) -> Ints:
         """Return the column and row [K, 2] (int32) of each piece's tile."""
-        return _tiles(self.tile_starts, self.low, self.shape)
+        column = np.repeat(np.arange(len(self.column_starts) - 1, dtype=np.int32), np.diff(self.column_starts))
+        return np.stack([column, self.row], axis=1, dtype=np.int32, casting="unsafe") + self.low.astype(np.int32)
 
     def ground_lattice(self, pieces: Ints, spacing_m: float) -> Floats:
         """Return positions [n, 3] (float32) in areas, one in each square block with a corner or middle inside."""
@@ -153,25 +158,6 @@ class PieceTable:
         areas = self.geometry(pieces)
         shapely.prepare(areas)
         return xy[shapely.contains_xy(areas[area], *xy.T)]
-
-
-@compiled
-def _tiles(tile_starts: Ints, low: Ints, shape: Ints) -> Ints:
-    """Return the tile of each piece; see `PieceTable.tile`."""
-    tile = np.empty((tile_starts[-1], 2), np.int32)
-    for number in range(len(tile_starts) - 1):
-        column, row = low[0] + number // shape[1], low[1] + number % shape[1]
-        for k in range(tile_starts[number], tile_starts[number + 1]):
-            tile[k, 0], tile[k, 1] = column, row
-    return tile
-
-
-@compiled
-def _pieces_per_tile(columns: Ints, rows: Ints, low: Ints, shape: Ints) -> Ints:
-    count = np.zeros(shape[0] * shape[1], np.int64)
-    for k in range(len(columns)):
-        count[(columns[k] - low[0]) * shape[1] + rows[k] - low[1]] += 1
-    return count
 
 
 def _find_links(

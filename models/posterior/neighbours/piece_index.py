@@ -10,13 +10,13 @@ import numpy.typing as npt
 from safetensors import SafetensorError
 from safetensors.numpy import save_file
 
-from models.citymap.cells import CellTable, PartTable
-from models.citymap.geometry.closest_points import closest_instances
+from models.citymap.cells import CELLS_PER_BLOCK, CellTable, PartTable
+from models.citymap.geometry.closest_points import CROWN_M, closest_instances
 from models.citymap.geometry.cutting import cut_pieces
 from models.citymap.geometry.pieces import PieceTable
 from models.citymap.geometry.solids import THING
-from models.citymap.geometry.tiling import BLOCK_TILES, TILE_M, BlockSet, block_key
-from models.citymap.hints import HINT_REACH_M
+from models.citymap.geometry.tiling import TILE_M
+from models.citymap.hints import BEST_CELL_REACH_M, HINT_REACH_M
 from models.citymap.map_geometry import PieceGeometry
 from models.citymap.points import Ints, ranges
 from models.citymap.types import CutRules, Floats
@@ -30,6 +30,7 @@ from models.spool import row_blocks, spooled, spooled_zeros
 from models.strings import compact
 
 FILE: Final = "pieces.safetensors"
+REACH_M: Final = BEST_CELL_REACH_M + HINT_REACH_M + CROWN_M  # from a cell's centre to what its nodes read
 MAX_SHARE_TAKEN: Final = 0.8  # of the pieces; taking more takes more memory than it saves
 OBJECT_COLUMNS: Final = ("instance", "rgb", "parts", "is_flat")
 
@@ -155,10 +156,12 @@ class PieceNeighbourIndex:
 
 
 def _pieces_near(pieces: PieceTable, centers_m: Floats) -> PieceTable:
-    """Return the pieces that cells around centres [N, 2] and their nodes can need, if that is much less than all."""
-    column, row = np.round(centers_m / TILE_M).astype(np.int64).T
-    blocks = BlockSet(np.unique(block_key(column // BLOCK_TILES, row // BLOCK_TILES))).with_neighbours()
-    is_near = blocks.contains(*pieces.tile.T) | (pieces.form == THING)
+    """Return the pieces that cells around centres [N, 2] and their nodes read, if that is much less than all."""
+    is_near = pieces.form == THING
+    for n in range(0, len(centers_m), CELLS_PER_BLOCK):
+        block_m = centers_m[n : n + CELLS_PER_BLOCK]
+        first, last = (np.floor((block_m + end) / TILE_M + 0.5).astype(np.int64) for end in (-REACH_M, REACH_M))
+        is_near[pieces.in_tiles(first, last)[1]] = True
     return pieces.take(is_near) if is_near.mean() < MAX_SHARE_TAKEN else pieces
 
 
