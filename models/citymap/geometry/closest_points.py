@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from models.citymap.geometry.groups import group_pieces, pieces_near
 from models.citymap.geometry.pieces import PieceTable
-from models.citymap.geometry.segments import STEP_M, Steps
+from models.citymap.geometry.segments import STEP_M, TILE_EDGES, Steps
 from models.citymap.geometry.solids import AREA
 from models.citymap.geometry.tiling import TILE_M, TILE_SLACK_M
 from models.citymap.points import Ints
@@ -134,10 +134,15 @@ def _offsets_to_groups(
                 x[p], y[p] = points_m[m, 0] - tile[k, 0] * TILE_M, points_m[m, 1] - tile[k, 1] * TILE_M
             if crown_m[k] > 0.0:
                 _improve_by_crown(x, y, segments, first, last, crown_m[k], g, best, best_x, best_y)
+            elif first == last:
+                _improve_by_segments(x, y, TILE_EDGES, 0, len(TILE_EDGES), g, best, best_x, best_y)
             else:
                 _improve_by_segments(x, y, segments, first, last, g, best, best_x, best_y)
             if form[k] == AREA:
-                _fill_inside(x, y, segments, first, last, inside)
+                if first == last:
+                    _fill_inside(x, y, TILE_EDGES, 0, len(TILE_EDGES), inside)
+                else:
+                    _fill_inside(x, y, segments, first, last, inside)
                 for p in range(count):
                     if inside[p] == 1.0:
                         best[g, p], best_x[g, p], best_y[g, p] = 0.0, 0.0, 0.0

@@ -11,7 +11,7 @@ import shapely
 
 from models.citymap.geometry.groups import first_from_rows
 from models.citymap.geometry.piece_rows import PieceRows
-from models.citymap.geometry.segments import STEP_M, Steps, to_geometry
+from models.citymap.geometry.segments import STEP_M, TILE_EDGE_STEPS, Steps, segments_of, to_geometry
 from models.citymap.geometry.solids import THING
 from models.citymap.geometry.tiling import BEYOND_MAP_M, TILE_M, TOUCHING_M, Geometries
 from models.citymap.points import Ints, block_keys, ranges, thin_to_spacing
@@ -20,7 +20,6 @@ from models.spool import row_blocks, spooled, starts_of
 
 PIECES_PER_BLOCK: Final = 20_000  # pieces whose geometries are built at a time, to bound memory
 TILE_COLUMNS_PER_BLOCK: Final = 64  # columns of tiles whose pieces are linked together
-TILE_EDGE_STEPS: Final = round(TILE_M / 2 / STEP_M)  # from the middle of a tile to its edge
 _STORED_NAMES: Final = {"point_count": "worth"}  # fields whose column has another name in an index
 _FIELD_NAMES: Final = {stored: name for name, stored in _STORED_NAMES.items()}
 
@@ -40,7 +39,7 @@ class PieceTable:
     crown_m: Floats  # [K] float32 radius of a tree's crown, 0 for others
     point_count: Floats  # [K] float32 points that a scanner would measure on it
     segment_starts: Ints  # [K + 1] int32
-    segments: Steps  # [S, 4] int16 its lines and rings, see `to_segments`
+    segments: Steps  # [S, 4] int16 its lines and rings, none if it is its whole tile, see `to_segments`
     link_starts: Ints  # [K + 1]
     links: Ints  # piece k is connected with links[link_starts[k]:link_starts[k + 1]]
 
@@ -174,8 +173,7 @@ def _find_links(
         # Include the column to the west, for the border between; the eastern border belongs to the next block.
         begin, own, end = np.searchsorted(column, [first - 1, first, first + TILE_COLUMNS_PER_BLOCK])
         tiles = np.stack([column[begin:end], row[begin:end]], axis=1).astype(np.int64)
-        piece = np.repeat(np.arange(end - begin), np.diff(starts[begin : end + 1]))
-        ends = segments[starts[begin] : starts[end]]
+        piece, ends = segments_of(starts, segments, np.arange(begin, end))
         on_border = (np.abs(ends) == TILE_EDGE_STEPS).any(axis=1) & (form[begin:end] != THING)[piece]
         piece, ends = piece[on_border], ends[on_border]
         local = tiles, instance[begin:end], dimension[begin:end]

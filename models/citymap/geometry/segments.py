@@ -13,7 +13,12 @@ from models.compiled import compiled
 
 STEP_M: Final = 2e-4  # unit of the stored coordinates, relative to the middle of the tile
 TILE_CORNERS: Final = ((-1, 1), (1, 1), (1, -1), (-1, -1), (-1, 1))  # in halves of an edge
+TILE_EDGE_STEPS: Final = round(TILE_M / 2 / STEP_M)  # from the middle of a tile to its edge
 Steps = npt.NDArray[np.int16]
+# As `to_segments` finds them, so that no distance depends on whether they are stored
+TILE_EDGES: Final = TILE_EDGE_STEPS * np.array(
+    [(-1, 1, -1, -1), (-1, -1, 1, -1), (1, -1, 1, 1), (1, 1, -1, 1)], np.int16
+)
 
 
 def snap(geometry: Geometries) -> Geometries:
@@ -31,7 +36,8 @@ def snap(geometry: Geometries) -> Geometries:
 def to_segments(geometry: Geometries, tile: Ints) -> tuple[Ints, Steps]:
     """Return the starts [K + 1] and segments [S, 4] (x and y of both ends) of pieces after `snap`.
 
-    `tile` [K, 2] is their column and row. A point has two equal ends.
+    `tile` [K, 2] is their column and row. A point has two equal ends. A piece without segments is its whole tile, as
+    most of a forest is; `segments_of` adds its edges.
     """
     dimensions = shapely.get_dimensions(geometry)
     geometry = shapely.orient_polygons(geometry)
@@ -48,16 +54,37 @@ def to_segments(geometry: Geometries, tile: Ints) -> tuple[Ints, Steps]:
         owners.append(rows[part_of[line[first]]])
     owner = np.concatenate(owners)
     order = np.argsort(owner, kind="stable")
-    starts = np.searchsorted(owner[order], np.arange(len(geometry) + 1))
-    local_m = np.concatenate(segments)[order] - np.tile(tile[owner[order]] * TILE_M, 2)
-    return starts, np.round(local_m / STEP_M).astype(np.int16)
+    owner = owner[order]
+    local_m = np.concatenate(segments)[order] - np.tile(tile[owner] * TILE_M, 2)
+    steps = np.round(local_m / STEP_M).astype(np.int16)
+    starts = np.searchsorted(owner, np.arange(len(geometry) + 1))
+    is_stored = ~_are_tiles(starts, steps)[owner]
+    return np.concatenate([[0], np.cumsum(is_stored)])[starts], steps[is_stored]
+
+
+def _are_tiles(starts: Ints, segments: Steps) -> npt.NDArray[np.bool_]:
+    """Return whether the segments of each piece [K] are the edges of its tile, in this order."""
+    are_tiles = np.diff(starts) == len(TILE_EDGES)
+    rows = starts[:-1][are_tiles, None] + np.arange(len(TILE_EDGES))
+    are_tiles[are_tiles] = (segments[rows] == TILE_EDGES).all(axis=(1, 2))
+    return are_tiles
+
+
+def segments_of(starts: Ints, segments: Steps, pieces: Ints) -> tuple[Ints, Steps]:
+    """Return the position in `pieces` [n] and ends [S, 4] of each of their segments, with the edges of whole tiles."""
+    begin, end = starts[pieces], starts[pieces + 1]
+    is_tile = begin == end
+    sizes = np.where(is_tile, len(TILE_EDGES), end - begin)
+    owner = np.repeat(np.arange(len(pieces)), sizes)
+    ends = np.empty((len(owner), 4), np.int16)
+    ends[~is_tile[owner]] = segments[ranges(begin, end)]
+    ends[is_tile[owner]] = np.tile(TILE_EDGES, (is_tile.sum(), 1))
+    return owner, ends
 
 
 def to_geometry(starts: Ints, segments: Steps, tile: Ints, dimension: Ints, pieces: Ints) -> Geometries:
     """Rebuild the geometries of pieces [n] from all segments; a dimension is 0 for points, 1 for lines, 2 for areas."""
-    begin, end = starts[pieces], starts[pieces + 1]
-    owner = np.repeat(np.arange(len(pieces)), end - begin)
-    ends = segments[ranges(begin, end)]
+    owner, ends = segments_of(starts, segments, pieces)
     ends_m: Floats = ends * STEP_M + np.tile(tile[pieces][owner] * TILE_M, 2)
     result = np.empty(len(pieces), dtype=object)
     is_point = dimension[pieces] == 0
