@@ -1,6 +1,6 @@
 """Cut the features of a map into pieces, a tile at a time: clip, subtract covers, join."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -74,13 +74,12 @@ def clip_to_tiles(geometry: Geometries, band: TileSpan, blocks: BlockSet | None 
     feature: Ints = np.arange(len(geometry))
     if blocks is not None:
         geometry, feature = _clip_to_runs(geometry, blocks.rows(band))
-    strips = _cut_along_axis(geometry, feature, 0, band)
-    columns: list[tuple[Ints, Ints, Ints, Geometries]] = [(strips[0][:0], strips[0][:0], strips[1][:0], strips[2][:0])]
-    for number, begin, end in _runs(strips[0]):
-        allowed = None if blocks is None else blocks.rows((number, number + 1))
-        row, feature, pieces = _cut_along_axis(strips[2][begin:end], strips[1][begin:end], 1, ALL_TILES, allowed)
-        columns.append((np.full(len(row), number), row, feature, pieces))
-    return Clipped(*(np.concatenate(column) for column in zip(*columns, strict=True)))
+    column, source, strips = _cut_along_axis(geometry, 0, band)
+    is_wanted = None if blocks is None else lambda strip, row: blocks.contains(column[strip], row)
+    row, strip, pieces = _cut_along_axis(strips, 1, ALL_TILES, is_wanted)
+    order = np.argsort(column[strip], kind="stable")
+    strip = strip[order]
+    return Clipped(column[strip], row[order], feature[source[strip]], pieces[order])
 
 
 def tile_span(ends_m: Floats) -> tuple[Ints, Ints]:
@@ -109,11 +108,14 @@ def _clip_to_runs(geometry: Geometries, rows: Ints) -> tuple[Geometries, Ints]:
 
 
 def _cut_along_axis(
-    geometry: Geometries, feature: Ints, axis: int, span: TileSpan, allowed: Ints | None = None
+    geometry: Geometries,
+    axis: int,
+    span: TileSpan,
+    is_wanted: Callable[[Ints, Ints], npt.NDArray[np.bool_]] | None = None,
 ) -> tuple[Ints, Ints, Geometries]:
-    """Return (band, feature, piece) of geometries along one axis, in order of band, then geometry.
+    """Return (band, row of `geometry`, piece) of geometries [n] along one axis, in order of band, then geometry.
 
-    `allowed` are the bands to cut, ascending; None for all.
+    `is_wanted` chooses among rows and bands [m].
     """
     low, high = tile_span(shapely.bounds(geometry)[:, [axis, axis + 2]])
     is_whole = low == high
@@ -121,9 +123,9 @@ def _cut_along_axis(
     after = np.maximum(np.minimum(high + 1, span[1]), low)
     source = np.repeat(np.arange(len(geometry)), after - low)
     band = ranges(low, after)
-    if allowed is not None:
-        is_allowed = np.isin(band, allowed)
-        source, band = source[is_allowed], band[is_allowed]
+    if is_wanted is not None:
+        chosen = is_wanted(source, band)
+        source, band = source[chosen], band[chosen]
     order = np.argsort(band, kind="stable")
     source, band = source[order], band[order]
     pieces = geometry[source]
@@ -139,7 +141,7 @@ def _cut_along_axis(
             )
             pieces[rows] = shapely.clip_by_rect(pieces[rows], *box)
     is_left = ~shapely.is_empty(pieces)
-    return band[is_left], feature[source[is_left]], pieces[is_left]
+    return band[is_left], source[is_left], pieces[is_left]
 
 
 def _runs(values: Ints) -> Iterator[tuple[int, int, int]]:
