@@ -128,21 +128,18 @@ def _offsets_to_groups(
             k = order[n]
             if _squared_box_distance(bounds_m, k, box_m) > beyond:
                 continue
-            first, last = segment_starts[k], segment_starts[k + 1]
+            ends, first, last = segments, segment_starts[k], segment_starts[k + 1]
+            if first == last:
+                ends, first, last = TILE_EDGES, 0, len(TILE_EDGES)
             for p in range(count):
                 m = p if p < points else 0
                 x[p], y[p] = points_m[m, 0] - tile[k, 0] * TILE_M, points_m[m, 1] - tile[k, 1] * TILE_M
             if crown_m[k] > 0.0:
-                _improve_by_crown(x, y, segments, first, last, crown_m[k], g, best, best_x, best_y)
-            elif first == last:
-                _improve_by_segments(x, y, TILE_EDGES, 0, len(TILE_EDGES), g, best, best_x, best_y)
+                _improve_by_crown(x, y, ends, first, last, crown_m[k], g, best, best_x, best_y)
             else:
-                _improve_by_segments(x, y, segments, first, last, g, best, best_x, best_y)
+                _improve_by_segments(x, y, ends, first, last, g, best, best_x, best_y)
             if form[k] == AREA:
-                if first == last:
-                    _fill_inside(x, y, TILE_EDGES, 0, len(TILE_EDGES), inside)
-                else:
-                    _fill_inside(x, y, segments, first, last, inside)
+                _fill_inside(x, y, ends, first, last, inside)
                 for p in range(count):
                     if inside[p] == 1.0:
                         best[g, p], best_x[g, p], best_y[g, p] = 0.0, 0.0, 0.0

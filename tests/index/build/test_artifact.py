@@ -9,7 +9,7 @@ import pytest
 from index.answering.localizer import Localizer
 from index.build import manifest as manifest_module
 from index.build.artifact import find_version, open_version, read_aliases, register, set_alias
-from index.build.manifest import check_model
+from index.build.manifest import FORMAT, check_model
 from models.errors import IndexBroken, IndexMismatch
 from models.files import new_directory
 from models.paper.checkpoint import save_retriever
@@ -77,7 +77,7 @@ def test_cut_changed_and_missing_files_are_noticed(copy, name) -> None:
             check(copy)
 
 
-@pytest.mark.parametrize("text", ["", "{", "[]", '{"format": 11}'])
+@pytest.mark.parametrize("text", ["", "{", "[]", f'{{"format": {FORMAT}}}'])
 def test_a_broken_manifest_is_noticed(copy, text) -> None:
     version_file(copy, "manifest.json").write_text(text)
     with pytest.raises(IndexBroken, match=r"manifest.json (is broken|was changed)"):
@@ -209,11 +209,12 @@ def test_an_alias_that_no_file_can_have_is_refused(copy) -> None:
             open_version(copy)
 
 
-def test_an_index_of_an_earlier_format_says_that_it_has_to_be_built_anew(copy) -> None:
+@pytest.mark.parametrize("earlier", [6, FORMAT - 1])
+def test_an_index_of_an_earlier_format_says_that_it_has_to_be_built_anew(copy, earlier) -> None:
     path, manifest = unregistered(copy)
-    path.write_text(json.dumps({"format": 6, "version": manifest["version"]}))
+    path.write_text(json.dumps({"format": earlier, "version": manifest["version"]}))
     (copy / "aliases.json").write_text(json.dumps({"default": manifest["version"]}))
-    with pytest.raises(IndexBroken, match=r"has format 6, .* build it"):
+    with pytest.raises(IndexBroken, match=rf"has format {earlier}, .* build it"):
         open_version(copy)
 
 

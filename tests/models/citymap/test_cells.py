@@ -38,6 +38,29 @@ def test_cutting_equals_the_rules_read_literally(scan, points, n) -> None:
     assert len(mine) > 3
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_centres_are_the_points_of_the_grid_within_reach_of_a_location(seed, monkeypatch) -> None:
+    """Clusters of locations kilometres apart, as villages in a valley are."""
+    rng, rules = np.random.default_rng(seed), CutRules()
+    villages_m = rng.uniform(-3000, 3000, (3, 1, 3)) + rng.uniform(-40, 40, (3, 6, 3))
+    locations_m = villages_m.reshape(-1, 3)
+    low, high = locations_m[:, :2].min(axis=0) - rules.reach_m, locations_m[:, :2].max(axis=0) + rules.reach_m
+    x, y = (
+        np.arange(np.ceil(a / rules.grid_m), b / rules.grid_m) * rules.grid_m for a, b in zip(low, high, strict=True)
+    )
+    all_m = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
+    inside = ((all_m >= low + rules.reach_m - rules.grid_m) & (all_m <= high - rules.reach_m + rules.grid_m)).all(
+        axis=1
+    )
+    away_m = np.linalg.norm(all_m[:, None] - locations_m[:, :2], axis=-1)
+    expected = all_m[inside & (away_m.min(axis=1) <= rules.reach_m)]
+    monkeypatch.setattr(cells_module, "GRID_POINTS_PER_BLOCK", 50)
+    centers_m = grid_centers(locations_m, rules)
+    assert np.array_equal(centers_m[:, :2], expected)
+    nearest = np.linalg.norm(expected[:, None] - locations_m[:, :2], axis=-1).argmin(axis=1)
+    assert np.array_equal(centers_m[:, 2], locations_m[nearest, 2])
+
+
 def ragged_city(seed: int) -> CityMap:
     """Clouds at random, so that DBSCAN meets noise, border points and several clusters."""
     rng = np.random.default_rng(seed)

@@ -5,7 +5,8 @@ import pytest
 import shapely
 
 from models.citymap.geometry.pieces import PieceTable
-from models.citymap.geometry.segments import STEP_M, ring_starts, snap, to_geometry, to_segments
+from models.citymap.geometry.segments import STEP_M, ring_starts, segments_of, snap, to_geometry, to_segments
+from models.citymap.geometry.tiling import TILE_M
 
 
 def test_pieces_are_put_together_again_from_their_segments(city) -> None:
@@ -64,3 +65,17 @@ def test_what_is_thinner_than_a_step_is_nothing_and_spoils_nothing() -> None:
     house = shapely.MultiPolygon([sliver, shapely.box(1, 1, 3, 3)])
     [result] = again(house)
     assert result.area == pytest.approx(4)
+
+
+def test_a_piece_that_is_its_tile_has_no_segments_and_is_put_together_all_the_same() -> None:
+    half = TILE_M / 2
+    whole, yard = shapely.box(-half, -half, half, half), [(0, 0), (1, 0), (1, 1)]
+    pieces = [whole, shapely.Polygon(whole.exterior, [yard]), shapely.box(-half, -half, half, 0), whole]
+    geometry = snap(shapely.transform(np.array(pieces), lambda xy: xy + np.array([70, -20])))
+    tile, rows = np.tile([7, -2], (4, 1)), np.arange(4)
+    starts, segments = to_segments(geometry, tile)
+    assert np.diff(starts).tolist() == [0, 7, 4, 0]
+    assert shapely.equals(to_geometry(starts, segments, tile, np.full(4, 2), rows), geometry).all()
+    owner, ends = segments_of(starts, segments, rows[::-1])
+    assert owner.tolist() == [0] * 4 + [1] * 4 + [2] * 7 + [3] * 4
+    assert np.array_equal(ends[:4], ends[-4:])
