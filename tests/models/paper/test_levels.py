@@ -160,6 +160,23 @@ def test_every_row_of_the_ablation_trains(text_encoder, levels, loss) -> None:
         text.vectors("relation" if "instance" in levels or levels == ("global",) else "instance")
 
 
+def test_the_instance_level_is_of_the_graphs_nodes_or_of_three_linear_layers(text_encoder) -> None:
+    torch.manual_seed(0)
+    hints, mask, unit = torch.randn(2, 3, 16), torch.ones(2, 3, dtype=torch.bool), torch.nn.functional.normalize
+    graph, plain = (
+        Mncl(text_encoder, MnclConfig(width=16, levels=("global", "instance", *others))).eval()
+        for others in (("relation",), ())
+    )
+    with torch.no_grad():
+        nodes, relations = graph.hint_graph(hints, graph.hint_edges(hints), mask)
+        text = graph.embed_texts(hints, mask)
+        assert torch.equal(text.vectors("instance"), unit(nodes, dim=-1))
+        assert torch.equal(text.vectors("relation"), unit(relations, dim=-1))
+        assert torch.equal(plain.embed_texts(hints, mask).vectors("instance"), unit(plain.hint_subspace(hints), dim=-1))
+    for subspace in (plain.hint_subspace, plain.cell_subspace):
+        assert [type(layer) for layer in subspace[::2]] == [torch.nn.Linear] * 3
+
+
 def test_the_losses_settings_reach_the_loss(text_encoder) -> None:
     torch.manual_seed(0)
     mask, same = torch.ones(4, 3, dtype=torch.bool), torch.eye(4, dtype=torch.bool)

@@ -104,6 +104,7 @@ def test_weights_are_bounded_and_fall_with_distance(batch) -> None:
     without_least = negative_weights(texts, cells, 2.0, 0.0, "batch")
     assert without_least.min() == 0, "the farthest pair of the batch has no weight"
     assert torch.equal(without_least.clamp(min=0.8), weights)
+    assert not negative_weights(texts.clone().requires_grad_(), cells, 2.0, 0.8, "batch").requires_grad
 
 
 def test_weights_by_unit_distance_do_not_depend_on_the_batch(batch) -> None:

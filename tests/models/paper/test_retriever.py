@@ -12,7 +12,7 @@ from models.paper.instance_encoder import (
     InstanceEncoder,
     geometry_columns,
 )
-from models.paper.layers import masked_max
+from models.paper.layers import HintEncoder, masked_max
 from models.paper.level_table import encode_gallery
 from models.paper.mncl import Mncl, MnclConfig
 from tests.encoding import encode_descriptions
@@ -38,6 +38,22 @@ def test_masked_max_ignores_padding() -> None:
     x = torch.tensor([[[1.0, -5.0], [9.0, 9.0]], [[-3.0, -4.0], [-2.0, -9.0]]])
     mask = torch.tensor([[True, False], [True, True]])
     assert masked_max(x, mask).tolist() == [[1.0, -5.0], [-2.0, -4.0]]
+
+
+def test_hint_features_against_equation_m1() -> None:
+    torch.manual_seed(0)
+    encoder = HintEncoder(6, 8, 0.1).eval()
+    encoder.norm.running_mean.normal_()
+    encoder.norm.running_var.uniform_(0.5, 2.0)
+    tokens, lengths = torch.randn(2, 5, 6), (5, 3)
+    with torch.no_grad():
+        features = encoder(tokens, torch.arange(5) < torch.tensor(lengths)[:, None])
+        for sentence, length in enumerate(lengths):
+            attended = encoder.tokens.layers[0](encoder.project(tokens[sentence, :length])[None])[0]
+            largest = torch.stack([max(column) for column in attended.T])
+            head = encoder.head(largest) - encoder.norm.running_mean
+            expected = head / (encoder.norm.running_var + encoder.norm.eps).sqrt()
+            assert torch.allclose(features[sentence], expected, atol=1e-5)
 
 
 def test_a_description_alone_and_in_a_batch(model) -> None:
@@ -99,6 +115,7 @@ def test_features_of_a_cell(city, cells, features) -> None:
     offset = (cells.parts.closest_m[rows] - cells.center_m[n])[:, :2]
     assert geometry[:, 3:5] * 15 == pytest.approx(offset, abs=1e-3)
     assert geometry[:, 5] * 15 == pytest.approx(np.hypot(*offset.T), abs=1e-3)
+    assert geometry[:, 11] * 10 == pytest.approx(np.log1p(cells.parts.count[rows]), abs=1e-4)
     assert [features.labels[i] for i in features.label[rows]] == [
         city.instances[i].label for i in cells.parts.instance[rows]
     ]

@@ -25,7 +25,13 @@ from models.training import fit_points
 from models.training.fit_fine import train_fine
 from models.training.fit_points import train_points
 from models.training.fit_retriever import RetrievalTask, train_retriever
-from models.training.retrieval_data import DIRECTION_UNDER_SYMMETRY, SYMMETRIES, TrainingSet, reflect_cells
+from models.training.retrieval_data import (
+    DIRECTION_UNDER_SYMMETRY,
+    HARD_NEGATIVE_RADIUS_M,
+    SYMMETRIES,
+    TrainingSet,
+    reflect_cells,
+)
 from models.training.settings import TrainingConfig, load_settings
 from models.training.training_data import TrainingCells, TrainingData, load_training_data
 from models.training.validation import Validation
@@ -63,6 +69,14 @@ def test_batches_are_seeded_and_say_what_is_true(region, city) -> None:
     assert batch.hint_mask.sum(dim=1).min() >= 2
     assert (batch.sentences[batch.hint_mask] >= 0).all(), "every sentence is in the vocabulary"
     assert batch.same_cell.diagonal().all()
+
+
+def test_a_batch_has_groups_of_positions_near_each_other(region) -> None:
+    positions_m = region.statements.positions_m[:, :2]
+    for group in region.draw(16, 4, np.random.default_rng(5)).reshape(4, 4):
+        away_m = np.linalg.norm(positions_m[region.usable][:, None] - positions_m[group], axis=-1)
+        assert away_m.max(axis=1).min() <= HARD_NEGATIVE_RADIUS_M
+    assert len(region.draw(16, 1, np.random.default_rng(5))) == 16
 
 
 def test_published_wording_says_what_is_there_in_the_benchmarks_words(source, text_encoder) -> None:
