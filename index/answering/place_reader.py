@@ -34,6 +34,7 @@ MIN_CLASS_TRUST: Final = 0.5  # probability of a hint's class from which it desc
 HEADING_NODES: Final = 128  # the likeliest nodes decide the heading
 MAX_HEADING_SPREAD_DEG: Final = 60.0  # a less certain heading is not reported
 _SIDE_WORDS: Final = ((22.5, "ahead"), (67.5, "ahead {}"), (112.5, "{}"), (157.5, "behind {}"), (181.0, "behind"))
+MAX_EXPLAINED_LACKING_NAME: Final = 0.4  # of a kind with a name that no object has: another station
 NEAR_RELATIONS: Final = frozenset(("seen", "wind", "near", "beside", "on", "inside"))  # hints express them too
 
 
@@ -109,7 +110,8 @@ class PlaceReader:
             kind = words.kinds[0] if words.kinds else None
             shown |= {"instance": kind, "name": words.names[0] if words.names else None, "source_id": words.source_id}
         label = mention.kinds[0] if mention.kinds else shown.get("instance")
-        return replace(evidence, label=label or mention.form, explained=by.probability, **shown)
+        probability = min(by.probability, MAX_EXPLAINED_LACKING_NAME if mention.lacks_name else 1.0)
+        return replace(evidence, label=label or mention.form, explained=probability, **shown)
 
     @torch.inference_mode()
     def heading(self, place_evidence: PlaceEvidence | None, located: PositionDistribution) -> Heading | None:
@@ -206,7 +208,7 @@ def _unexplained_evidence(mention: Mention) -> Evidence:
         colour=None,
         relation=_relation_word(mention),
         distance_m=mention.cue.distance_m,
-        absent=False,
+        absent=mention.is_denied,
         explained=0.0,
         exact=mention.is_exact if mention.form != "unknown" else False,
     )

@@ -113,7 +113,7 @@ class PosteriorLocalizer:
         warnings = _language_warnings(language)
         hints, bound_hints, mentions, place_evidence = self._read(query, language, hints)
         timings = {"encode": encode_ms + elapsed_ms(start)}
-        unknown = (f"'{mention.text}' was not found on the map" for mention in mentions if mention.form == "unknown")
+        unknown = (f"'{mention.text}' was not found on the map" for mention in mentions if mention.is_unknown)
         warnings += (*unknown, *contradictions(mentions))
         known_facts = KnownFacts.from_text(bound_hints, mentions, list(self.labels), self._gazetteer)
         if not hints and place_evidence is None and reply_evidence is None:

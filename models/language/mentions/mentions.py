@@ -46,8 +46,15 @@ class Mention:
     trust: float = 1.0  # probability that the words mean any of the candidates
     is_exact: bool = False  # whether the words are a whole name of the map
     kinds: tuple[str, ...] = ()  # kinds that the words state
+    lacks_name: bool = False  # whether the words also have a name that no object of the kinds has: "Pasila station"
+    is_denied: bool = False  # whether the text says that it is not there: "not near Kiasma"
     cue: Cue = NO_CUE  # where it is from the speaker
     side: float | None = None  # degrees of the stated side ("the north side of"); None without one
+
+    @property
+    def is_unknown(self) -> bool:
+        """Whether the words have a name that the map lacks."""
+        return self.form == "unknown" or self.lacks_name
 
     @classmethod
     def from_span(cls, span: Span, words: Sequence[Word], text: str) -> "Mention":
@@ -57,7 +64,8 @@ class Mention:
         if span.match is None:
             return cls(*common, kinds=kinds)
         match = span.match
-        return cls(*common, match.objects, match.weights, NO_LINES, match.trust, match.is_exact, kinds)
+        candidates = match.objects, match.weights, NO_LINES, match.trust, match.is_exact
+        return cls(*common, *candidates, kinds, span.lacks_name)
 
 
 _SIDE = re.compile(
@@ -78,7 +86,8 @@ def add_cues(text: str, mentions: Sequence[Mention], reader: CueReader) -> list[
     meant = [
         (mention, cue)
         for mention, cue in zip(mentions, read, strict=True)
-        if cue.is_meant and not _ABSENT.search(text[: mention.start]) and not _is_greeted(text, mention)
+        if (mention.is_denied or (cue.is_meant and not _ABSENT.search(text[: mention.start])))
+        and not _is_greeted(text, mention)
     ]
     sides = [Bearing(m.start(), m.end(), first_bearing(m[1]) or 0.0) for m in _SIDE.finditer(text)]
     winds = _without_overlaps(find_bearings(text), [*mentions, *sides])  # without the east of East 53rd Street

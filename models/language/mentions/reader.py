@@ -13,6 +13,7 @@ from models.language.mentions.crossings import (
     resolve_repeated_streets,
 )
 from models.language.mentions.cue_reader import CueReader
+from models.language.mentions.discourse import with_standing, without_corrected
 from models.language.mentions.languages import ENGLISH
 from models.language.mentions.lookup import Lookup
 from models.language.mentions.mentions import Mention, add_cues
@@ -50,7 +51,8 @@ def find_mentions(
     mentions = add_addresses([Mention.from_span(span, words, text) for span in spans], text, lookup)
     mentions = [mention for mention in mentions if len(mention.objects) <= MAX_OBJECTS]
     streets = [mention for mention in mentions if mention.form == "street"]
-    cued = add_cues(text, add_repeated_streets(text, add_corners(text, mentions, lookup)), cues)
+    mentions = with_standing(text, without_corrected(text, add_corners(text, mentions, lookup)))
+    cued = add_cues(text, add_repeated_streets(text, mentions), cues)
     return resolve_repeated_streets(cued, streets, lookup)
 
 

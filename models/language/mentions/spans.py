@@ -1,7 +1,7 @@
 """Find the spans of a text that may name something: names, misspelt names, kinds, streets."""
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Final, Literal
@@ -25,6 +25,7 @@ MIN_NOUN_SIMILARITY: Final = 0.8  # normalized OSA similarity of a misspelt noun
 WORD_SCORE, PHRASE_SCORE, STRANGE_SCORE = 2.0, 5.0, 5.0  # of spans of kinds and of unknown words
 EXACT_FACTOR, PART_FACTOR = 1.3, 0.8  # of the weight of the words of a whole name and of a part of one
 PLAIN_WORD_TRUST, PLAIN_PHRASE_TRUST, SENTENCE_START_TRUST = 0.5, 0.7, 0.5  # of everyday words
+LACKED_NAME_TRUST: Final = 0.3  # of a kind with a name that the map lacks
 OTHER_KIND_WEIGHT: Final = 0.4  # weight of an object with the name but another kind
 _W = english()
 STOP, PASSED = _W.list("stop"), _W.list("passed")
@@ -46,6 +47,7 @@ class Span:
     match: Match | None
     score: float
     kinds: Mapping[str, float] = field(default_factory=dict)
+    lacks_name: bool = False  # whether it also has a name that no object of its kinds has: "Pasila station"
 
 
 def find_spans(text: str, lookup: Lookup, language: str = ENGLISH) -> tuple[list[Word], list[Span]]:
@@ -206,6 +208,8 @@ def _chosen(spans: Sequence[Span], words: Sequence[Word]) -> list[Span]:
 def _with_unknown(spans: Sequence[Span], words: Sequence[Word], text: str, lookup: Lookup) -> list[Span]:
     """Add spans of misspelt words and of names that the map lacks."""
     covered = {n for span in spans for n in range(span.first, span.last + 1)}
+    firsts_of_kinds = {span.first for span in spans if span.form == "thing" and span.match is None}
+    cased = any(word.is_capital for word in words)
     result, n = list(spans), 0
     while n < len(words):
         if n in covered or not _is_strange(words, n, text, lookup):
@@ -215,7 +219,9 @@ def _with_unknown(spans: Sequence[Span], words: Sequence[Word], text: str, looku
         while end + 1 < len(words) and end + 1 not in covered and end - n < 3 and _follows(words, end, text, lookup):
             end += 1
         plain = [word.owner or word.plain for word in words[n : end + 1]]
+        before_kind = _is_next(end, firsts_of_kinds, words, text)
         is_name = words[n].is_capital and not _starts(words[n], words[n - 1] if n else None, text)
+        is_name = is_name or (before_kind and (not cased or words[n].is_capital or words[n].begins))
         span = _misspelt(n, end, plain, lookup, is_name=is_name)
         if span is not None:
             result.append(span)
@@ -230,7 +236,14 @@ def _is_strange(words: Sequence[Word], n: int, text: str, lookup: Lookup) -> boo
         return False
     strange = not lookup.is_common(plain) and word.plain not in lookup.noun_words and len(word.plain) > 3
     begins = _starts(word, words[n - 1] if n else None, text)
+    if word.begins:  # "National Museum"
+        return _is_next(n, [m for m in range(n + 1, len(words)) if words[m].is_capital], words, text)
     return strange or (word.is_capital and not begins)
+
+
+def _is_next(n: int, rows: Container[int], words: Sequence[Word], text: str) -> bool:
+    """Return whether the word after word n is one of `rows`, with only a space between."""
+    return n + 1 in rows and text[words[n].end : words[n + 1].start].strip() == ""
 
 
 def _follows(words: Sequence[Word], end: int, text: str, lookup: Lookup) -> bool:
@@ -266,12 +279,16 @@ def _joined(spans: Sequence[Span], words: Sequence[Word], text: str) -> list[Spa
         both_kinds = last.form == span.form == "thing" and last.match is None and span.match is None
         close = between.strip() == "" or _APPOSED.fullmatch(between) is not None
         named_kind = last.form == "unknown" or last.match is not None
-        kind_of_name = span.match is not None and last.match is None and last.form == "thing"
+        is_kind = last.match is None and last.form == "thing" and not last.lacks_name
+        kind_of_name = span.match is not None and is_kind
         characters = words[span.last].end - words[span.first].start
         if both_kinds and between.strip() == "":
             joined[-1] = Span(last.first, span.last, "thing", None, last.score, span.kinds)
         elif close and named_kind and span.match is None and span.form == "thing":
-            joined[-1] = Span(last.first, span.last, "thing", last.match, last.score + span.score, span.kinds)
+            lacks_name = last.form == "unknown"
+            joined[-1] = Span(last.first, span.last, "thing", last.match, last.score + span.score, span.kinds, lacks_name)
+        elif is_kind and between == " " and span.form == "unknown" and last.form == "thing":  # "Hotel Astoria"
+            joined[-1] = Span(last.first, span.last, "thing", None, last.score, last.kinds, lacks_name=True)
         elif kind_of_name and _NAMED_SO.fullmatch(between) and characters > MIN_NAME_CHARACTERS:
             joined[-1] = Span(last.first, span.last, "thing", span.match, last.score + span.score, last.kinds)
         else:
@@ -285,9 +302,13 @@ def attach_objects(span: Span, lookup: Lookup) -> Span:
         return span
     of_kind = lookup.of_kinds(span.kinds) if span.kinds else None
     if span.match is None:
-        return replace(span, match=of_kind) if of_kind else replace(span, form="unknown")
+        if of_kind is None:
+            return replace(span, form="unknown")
+        return replace(span, match=replace(of_kind, trust=LACKED_NAME_TRUST) if span.lacks_name else of_kind)
     if of_kind is None:
         return span
     agree = np.isin(span.match.objects, of_kind.objects)
+    if not span.match.is_exact and not agree.any():  # "Finlandia Hall" is no shop called Finlandia Caviar
+        return replace(span, match=replace(of_kind, trust=LACKED_NAME_TRUST), lacks_name=True)
     weights = span.match.weights * np.where(agree, 1.0, OTHER_KIND_WEIGHT)
     return replace(span, match=replace(span.match, weights=weights))

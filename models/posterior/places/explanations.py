@@ -16,6 +16,7 @@ class PlacedMentions:
 
     mentions: tuple[Mention, ...]  # those with objects near the map
     kernel_means: Tensor  # mean of each mention's kernel over the map, by which likelihoods are divided
+    denied: tuple[Mention, ...] = ()  # those that the text says are not near
     listener_m: Floats | None = None  # [2] position of the listener
     listener_wind: float | None = None  # stated bearing from the listener to the speaker, degrees
     is_meeting: bool = False  # whether the text describes a meeting point, not the speaker's position

@@ -30,6 +30,7 @@ STATED_REACH_FACTOR, MAX_STATED_REACH_M = 2.5, 600.0  # the same for stated dist
 GRID_ERROR_M: Final = 5.0  # by which a distance on the grid may be too long
 MIN_KERNEL_MEAN: Final = 1e-6
 MIN_KERNEL_MAX: Final = 0.02  # a mention that fits nowhere better is not near the map
+DENIED_SHARE: Final = 0.9  # by which a place is less likely at what a text says is not there
 CACHED_MENTIONS: Final = 32  # those of one text
 HEADINGS_RAD: Final = np.arange(HEADINGS) * (2 * pi / HEADINGS)
 TIERS: Final = (1.0, 0.7, 0.4, 0.2)  # weights on the grid are rounded to these
@@ -78,8 +79,9 @@ class PlaceField:
     ) -> PlaceEvidence:
         """Return the evidence of the mentions of a text; the other arguments as in `PlacedMentions`."""
         near, means, total = [], [], np.zeros(self.raster.shape, np.float32)
+        denied = tuple(mention for mention in mentions if mention.is_denied and len(mention.objects))
         for mention in mentions:
-            if not len(mention.objects) and not len(mention.lines_m):
+            if mention.is_denied or (not len(mention.objects) and not len(mention.lines_m)):
                 continue
             weights, distances = self._tier_distances(mention)
             grids = (torch.from_numpy(steps_m) for steps_m in (self.raster.steps_m, self.raster.block_steps_m))
@@ -92,7 +94,7 @@ class PlaceField:
             log_ratios = [self.log_evidence(mention, fit, means[-1]).numpy() for fit in fits]
             self.raster.add_best(total, distances, log_ratios[0], log_ratios[1])
         kernel_means = torch.stack(means) if means else torch.zeros(0)
-        placed = PlacedMentions(tuple(near), kernel_means, listener_m, listener_wind, is_meeting)
+        placed = PlacedMentions(tuple(near), kernel_means, denied, listener_m, listener_wind, is_meeting)
         cell_log_p = torch.from_numpy(total.ravel()[self.raster.cell_pixel])
         cell_log_p = self.kernels.temper.exp() * cell_log_p + self.from_listener(placed, self._centers_m)
         return PlaceEvidence(self, placed, cell_log_p.double().numpy())
@@ -113,8 +115,11 @@ class PlaceField:
     def by_heading(self, placed: PlacedMentions, points_m: Floats, group: Ints) -> Tensor:
         """Return log p(T | x, heading) [M, HEADINGS]."""
         total = torch.zeros(len(points_m), HEADINGS)
-        if placed.mentions:
+        if placed.mentions or placed.denied:
             around = PointGroups.from_groups(points_m, group)
+            for mention in placed.denied:
+                near = self.fits(mention, self.closest_points(mention, around), len(points_m)).amax(dim=1, keepdim=True)
+                total = total + torch.log1p(-DENIED_SHARE * near.clamp(max=1.0))
             for mention, mean in zip(placed.mentions, placed.kernel_means, strict=True):
                 fits = self.fits(mention, self.closest_points(mention, around), len(points_m))
                 total = total + self.log_evidence(mention, fits, mean)
