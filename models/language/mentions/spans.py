@@ -67,7 +67,7 @@ def find_spans(text: str, lookup: Lookup, language: str = ENGLISH) -> tuple[list
     measures = find_measures(text)  # "twenty-five" metres are not 25th Street
     spans = [s for s in spans if not (s.form == "street" and any(m.contains(words[s.last]) for m in measures))]
     chosen = _with_unknown(_chosen(spans, words), words, text, lookup)
-    return words, [attach_objects(span, lookup) for span in _joined(chosen, words, text)]
+    return words, [attach_objects(span, lookup) for span in _joined(_as_whole_names(chosen, words, text, lookup), words, text)]
 
 
 def correct_noun(word: str, lookup: Lookup) -> str:
@@ -122,7 +122,11 @@ def _spans_at(
     is_street = any(span.match is not None and span.match.is_exact for span in streets)
     named = None if is_street else _named(words[first : last + 1], plain, lookup, cased=cased, is_kind=bool(kinds))
     if named:
-        spans.append(Span(first, last, "thing", *named, kinds))
+        match, score = named
+        if kinds and match.is_exact and all(word.is_capital or word.begins for word in words[first : last + 1]):
+            score = max(score, spans[-1].score + WORD_SCORE)  # "Coffee Bar" is rather its name
+            kinds = {}
+        spans.append(Span(first, last, "thing", match, score, kinds))
     return spans
 
 
@@ -265,6 +269,26 @@ def _misspelt(first: int, last: int, plain: Sequence[str], lookup: Lookup, *, is
         if kinds:
             return Span(first, last, "thing", None, STRANGE_SCORE, kinds)
     return Span(first, last, "unknown", None, 0.0) if is_name else None
+
+
+def _as_whole_names(spans: Sequence[Span], words: Sequence[Word], text: str, lookup: Lookup) -> list[Span]:
+    """Turn parts of different names that stand together into one unknown name: "Finlandia Hall"."""
+    result: list[Span] = []
+    for span in spans:
+        last = result[-1] if result else None
+        if (
+            last is not None
+            and last.form == span.form == "thing"
+            and all(part.match is not None and not part.match.is_exact for part in (last, span))
+            and all(word.is_capital or word.begins for word in words[last.first : span.last + 1])
+            and text[words[last.last].end : words[span.first].start] == " "
+        ):
+            kinds = lookup.kinds([word.plain for word in words[span.first : span.last + 1]])
+            form: Form = "thing" if kinds else "unknown"
+            result[-1] = Span(last.first, span.last, form, None, last.score, kinds, lacks_name=bool(kinds))
+        else:
+            result.append(span)
+    return result
 
 
 def _joined(spans: Sequence[Span], words: Sequence[Word], text: str) -> list[Span]:
