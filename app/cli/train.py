@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
     from models.training.engine.loop import Progress
 
+ON_TEXTS = ("places", "certainty")  # methods that are fitted to texts about real places
+
 
 def train(
     out: Annotated[Path, typer.Option(help="directory for the weights")],
@@ -23,7 +25,8 @@ def train(
         str,
         typer.Option(
             help="a retriever (mncl, text2loc, ret, text2pos), a fine stage (regressor, matching), points (a point "
-            "encoder for either), posterior, or places (the posterior's cue readers and place kernels)"
+            "encoder for either), posterior, places (the posterior's cue readers and place kernels), or certainty (how sure its answers are; each "
+            "--data is then an index)"
         ),
     ] = "mncl",
     change: Annotated[
@@ -49,7 +52,9 @@ def train(
     ] = None,
     texts: Annotated[
         list[str] | None,
-        typer.Option(help="for places: .jsonl files for a --data, separated by commas; one --texts per --data"),
+        typer.Option(
+            help="for places and certainty: .jsonl files for a --data, separated by commas; one --texts per --data"
+        ),
     ] = None,
 ) -> None:
     """Train a model on the train split of a data set; for an OpenStreetMap file this is its west."""
@@ -58,9 +63,9 @@ def train(
 
     if resume and run_dir is None:
         raise TrainingError("--resume continues the run in --run-dir; give that directory")
-    if reader is not None and method not in ("posterior", "places"):
-        raise TrainingError("--reader is for --method posterior and places")
-    if method == "places" or texts:
+    if reader is not None and method not in ("posterior", *ON_TEXTS):
+        raise TrainingError("--reader is for --method posterior, places and certainty")
+    if method in ON_TEXTS or texts:
         _train_places(method, data, texts or [], reader, out, steps, seed)
         return
     options = {"training.seed": seed, "training.steps": steps, "model.text_encoder": text_encoder}
@@ -79,9 +84,19 @@ def _train_places(
     from models.training.posterior.fit_kernels import STEPS
     from models.training.posterior.train_places import train_places
 
-    if method != "places" or len(texts) != len(data):
-        raise TrainingError("--texts is for --method places: give the texts of each --data, in the same order")
+    if method not in ON_TEXTS or len(texts) != len(data):
+        raise TrainingError(
+            "--texts is for --method places and certainty: give the texts of each --data, in the same order"
+        )
     maps = [(path, [Path(name) for name in files.split(",")]) for path, files in zip(data, texts, strict=True)]
+    if method == "certainty":
+        from index.evaluation.certainty import calibrate_certainty, certainty_table
+        from index.evaluation.report import as_markdown
+
+        with stage_bars() as show:
+            figures = calibrate_certainty(maps, reader, out, show)
+        typer.echo(f"{as_markdown(certainty_table(figures))}\n\nweights are in {out}")
+        return
     with stage_bars() as show:
         figures = train_places(
             maps,

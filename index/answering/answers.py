@@ -72,7 +72,13 @@ class Estimate:
         Field(description="covariance of the true position around `position`, square metres"),
     ]
     radius_m: Radius
-    probability: Annotated[float, Field(description="probability that the best candidate is the right cell")]
+    within_m: Annotated[
+        dict[int, float],
+        Field(description="calibrated probabilities that the speaker is within 10, 30, 100 and 250 m of `position`"),
+    ]
+    probability: Annotated[
+        float, Field(description="probability that the best candidate is the right cell; small cells make it small")
+    ]
     wgs84: Annotated[LatLon | None, Field(description="null if the map has no georeference")]
     place: Annotated[str | None, Field(description="the position in words; null on a map without names")] = None
     heading: Annotated[Heading | None, Field(description="null if the text does not tell")] = None

@@ -34,10 +34,11 @@ from models.language.reader import COLOURS
 from models.paper.levels import Levels
 from models.posterior.area_filter import AreaFilter
 from models.posterior.binding import Binding
+from models.posterior.certainty import TextFacts
 from models.posterior.distribution import PositionDistribution
 from models.posterior.likelihood import BoundHints
 from models.posterior.locate import locate
-from models.posterior.model import PosteriorConfig, PosteriorModel
+from models.posterior.model import PosteriorModel
 from models.posterior.neighbours.neighbour_index import NeighbourIndex
 from models.posterior.places.field import PlaceEvidence
 from models.posterior.places.landmarks import Landmarks
@@ -127,7 +128,10 @@ class PosteriorLocalizer:
             return LocalizerResult(None, OUTSIDE_MAP, timings_ms=timings, warnings=warnings)
         start = time.perf_counter()
         result = self._explain(located, hints, bound_hints, mentions, place_evidence)
-        result = replace(result, evidence=with_description_spans(query.description, result.evidence))
+        if place_evidence is not None:
+            facts = _text_facts(query, language, mentions, len(hints), result.evidence, located.other)
+            located = replace(located, facts=facts, certainty=self.weights.config.certainty)
+        result = replace(result, located=located, evidence=with_description_spans(query.description, result.evidence))
         fits = any(hint.explained >= EXPLAINED_PROBABILITY for hint in result.evidence)
         if not fits and reply_evidence is not None:
             warnings += (REPLIES_ONLY,)
@@ -141,8 +145,7 @@ class PosteriorLocalizer:
         return replace(result, timings_ms=timings, warnings=warnings)
 
     def _is_uncertain(self, located: PositionDistribution, reply_evidence: ReplyEvidence | None) -> bool:
-        p50 = located.radii_m(0.5)[0]
-        return is_ambiguous(p50, self.gallery.cells) or (reply_evidence is not None and p50 > WELL_LOCATED_M)
+        return is_ambiguous(located) or (reply_evidence is not None and located.radii_m(0.5)[0] > WELL_LOCATED_M)
 
     def _question_for_refused(self, query: Query, language: str, known_facts: KnownFacts) -> Question | None:
         """Return the question for a refused text; None on a map without names and for texts that are not English."""
@@ -206,19 +209,10 @@ class PosteriorLocalizer:
         # Vectors know nothing of other evidence, the scores of the inverted list contain it.
         proposed = self.search(hints, bound_hints) if bound_hints is not None and evidence.is_hints_only else None
         located = locate(self.nodes, evidence, candidates, proposed)
-        return located and self._calibrate_radii(located, query, place_evidence)
+        return located and replace(located, calibrated_masses=self.weights.config.radius_held)
 
     def _inside(self, query: Query) -> AreaFilter | None:
         return nodes_inside(query, self.surroundings, self.gallery.cells.center_m[:, :2], self.frame)
-
-    def _calibrate_radii(
-        self, located: PositionDistribution, query: Query, place_evidence: PlaceEvidence | None
-    ) -> PositionDistribution:
-        config: PosteriorConfig = self.weights.config
-        if place_evidence is None:
-            return replace(located, calibrated_masses=config.radius_held)
-        is_for_listener = query.prior is not None or is_meeting(query.description)
-        return replace(located, radius_scale=config.meeting_scale if is_for_listener else config.place_scale)
 
     def search(self, hints: Sequence[ParsedHint], bound_hints: BoundHints) -> Ints | None:
         """Return the cells [A] that the vector index retrieves for hints in the retriever's words.
@@ -282,6 +276,26 @@ def _is_about_another_place(query: Query) -> bool:
     """Return whether a text is about a place away from the speaker, so its objects need not be near the speaker."""
     is_for_listener = query.prior is not None and listener_wind(query.description) is not None
     return is_for_listener or is_meeting(query.description)
+
+
+def _text_facts(
+    query: Query,
+    language: str,
+    mentions: Sequence[Mention],
+    hints: int,
+    evidence: Sequence[Evidence],
+    other: float,  # mass outside the candidates
+) -> TextFacts:
+    known = [mention for mention in mentions if not mention.is_unknown and not mention.is_denied]
+    return TextFacts.count(
+        unknown=sum(mention.is_unknown for mention in mentions),
+        understood=len(known) + hints,
+        unexplained=sum(item.explained < EXPLAINED_PROBABILITY for item in evidence if not item.absent),
+        other=other,
+        anchor=any(mention.is_anchor for mention in known),
+        foreign=language != ENGLISH,
+        meeting=query.prior is not None or is_meeting(query.description),
+    )
 
 
 def _language_warnings(language: str) -> tuple[str, ...]:

@@ -26,6 +26,8 @@ from models.citymap.frame import Frame
 from models.citymap.types import Floats
 from models.posterior.distribution import PositionDistribution
 
+SURE_WITHIN = ((30.0, 0.5), (100.0, 0.9))  # metres, and the probability of being within them that "ok" needs
+WITHIN_M = (10, 30, 100, 250)  # of `Estimate.within_m`
 MAX_HEAT_POINTS, HEAT_MASS = 500, 0.95  # points of a heat map, and the mass they hold at least
 
 
@@ -79,6 +81,7 @@ def to_answer(
         method=localizer.method,
         covariance=(pair(covariance[0]), pair(covariance[1])),
         radius_m=Radius(p50, p90),
+        within_m={metres: round(located.probability_within(metres), 4) for metres in WITHIN_M},
         probability=float(located.probability[0]),
         wgs84=LatLon.from_position(located.positions[0], frame),
         place=result.place,
@@ -87,7 +90,7 @@ def to_answer(
     listed = range(min(query.top_k, len(located.rows)))
     candidates = tuple(_candidate(located, n, cells, frame) for n in listed)
     return Answer(
-        status="ambiguous" if is_ambiguous(p50, cells) else "ok",
+        status="ambiguous" if is_ambiguous(located) else "ok",
         model=localizer.model,
         estimate=estimate,
         candidates=candidates,
@@ -100,9 +103,9 @@ def to_answer(
     )
 
 
-def is_ambiguous(p50: float, cells: CellTable) -> bool:
-    """Return whether a 50 % radius, metres, covers several places."""
-    return p50 > cells.size_m
+def is_ambiguous(located: PositionDistribution) -> bool:
+    """Return whether the speaker may well be elsewhere than at the estimate (docs/method.md, status)."""
+    return any(located.probability_within(metres) < probability for metres, probability in SURE_WITHIN)
 
 
 def _candidate(located: PositionDistribution, n: int, cells: CellTable, frame: Frame) -> Candidate:

@@ -76,12 +76,17 @@ def ask(localizer: Localizer, texts: Sequence[PlaceText], progress: Progress) ->
     rows = []
     for n, text in enumerate(texts):
         progress("ask", n, len(texts))
-        prior = None if text.start is None else Prior((text.start[1], text.start[0]), START_SIGMA_M)
-        [answer] = localizer.localize([Query(text.text, prior=prior, crs="wgs84")])
+        [answer] = localizer.localize([query_of(text)])
         rows.append(_row(localizer, text, answer))
     progress("ask", len(texts), len(texts))
     error, p50, p90, probability, hit = np.array(rows, dtype=np.float64).T
     return TextEvaluation(error, np.stack([p50, p90], axis=1), probability, hit > 0)
+
+
+def query_of(text: PlaceText) -> Query:
+    """Return the query of a text; one with a start has a prior around it."""
+    prior = None if text.start is None else Prior((text.start[1], text.start[0]), START_SIGMA_M)
+    return Query(text.text, prior=prior, crs="wgs84")
 
 
 def _row(localizer: Localizer, text: PlaceText, answer: Answer) -> tuple[float, float, float, float, bool]:
@@ -89,6 +94,8 @@ def _row(localizer: Localizer, text: PlaceText, answer: Answer) -> tuple[float, 
     if estimate is None or estimate.wgs84 is None:
         extent_m = localizer.gallery.cells.extent_m
         return np.inf, extent_m, extent_m, 0.0, False
+    if text.goal is None:
+        return np.inf, estimate.radius_m.p50, estimate.radius_m.p90, estimate.probability, False
     lat, lon = text.goal
     error = _EARTH.inv(estimate.wgs84.lon, estimate.wgs84.lat, lon, lat)[2]
     goal_m = localizer.frame.from_wgs84(lat, lon)

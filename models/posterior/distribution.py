@@ -9,6 +9,7 @@ import numpy as np
 from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.compiled import compiled
+from models.posterior.certainty import DISTANCES_M, Certainty, TextFacts, probability_within, radius_of
 
 # A point stands for a square; radii divide it into up to 5 x 5 squares of at least this width.
 SUBSQUARE_M, MAX_SUBSQUARES_PER_SIDE = 0.75, 5
@@ -32,20 +33,43 @@ class PositionDistribution:
     extent_m: float  # radius that contains the whole map
     is_retrieved: bool = True  # whether the vector index proposed the cells; False for the inverted list
     calibrated_masses: tuple[float, float] = RADIUS_MASSES  # mass that contains RADIUS_MASSES of the truths
-    radius_scale: float = 1.0  # factor on radii; like the masses from validation data
+    facts: TextFacts | None = None  # how the text was understood, if it names places
+    certainty: Certainty | None = None  # calibrates with the facts, instead of the masses
 
     def radii_m(self, *shares: float) -> tuple[float, ...]:
         """Return the radii of circles round the first position that contain calibrated shares, such as .5 and .9."""
+        if self._curve is not None:
+            return tuple(min(radius_of(self._curve, share), self.extent_m) for share in shares)
         metres, mass = self._mass_by_distance
         wanted = np.interp(shares, (0.0, *RADIUS_MASSES, 1.0), (0.0, *self.calibrated_masses, 1.0))
         # The whole map, if the points have less mass than that.
         radii = np.append(metres, self.extent_m)[np.searchsorted(mass, wanted)]
-        return tuple(np.minimum(radii * self.radius_scale, self.extent_m).tolist())
+        return tuple(np.minimum(radii, self.extent_m).tolist())
+
+    def probability_within(self, metres: float) -> float:
+        """Return the calibrated probability that the true position is within a distance of the first position."""
+        if metres >= self.extent_m:
+            return 1.0
+        if self._curve is not None:
+            return probability_within(self._curve, metres)
+        known = (0.0, *self.calibrated_masses, 1.0), (0.0, *RADIUS_MASSES, 1.0)
+        return float(np.interp(self.share_within(metres), *known))
 
     def share_within(self, metres: float) -> float:
         """Return the mass within a distance of the first position; mass without points counts as farther away."""
         known, mass = self._mass_by_distance
         return float(np.append(0.0, mass)[np.searchsorted(known, metres, side="right")])
+
+    @property
+    def shares(self) -> Floats:
+        """The mass [G] within each of DISTANCES_M of the first position."""
+        known, mass = self._mass_by_distance
+        return np.append(0.0, mass)[np.searchsorted(known, DISTANCES_M, side="right")]
+
+    @cached_property
+    def _curve(self) -> Floats | None:
+        """The calibrated probabilities [G] of being within DISTANCES_M; None without facts."""
+        return None if self.certainty is None or self.facts is None else self.certainty.curve(self.shares, self.facts)
 
     @cached_property
     def _mass_by_distance(self) -> tuple[Floats, Floats]:

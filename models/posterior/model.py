@@ -8,6 +8,7 @@ from models.language.labels import LabelMatcher
 from models.language.mentions.cue_reader import CueReader
 from models.language.reader import Reader, ReaderConfig
 from models.language.text_encoder import TextEncoder, TextEncoderModel, fingerprint_of
+from models.posterior.certainty import Certainty
 from models.posterior.distribution import RADIUS_MASSES
 from models.posterior.likelihood import Likelihood
 from models.posterior.places.kernels import PlaceKernels
@@ -18,9 +19,8 @@ class PosteriorConfig(ReaderConfig):
 
     # Mass that must lie within radii for them to contain .5 and .9 of the truths; from validation data.
     radius_held: tuple[float, float] = RADIUS_MASSES
-    # Factor on the radii of texts that name places; fitted on texts by language models and by people.
-    place_scale: float = 1.0
-    meeting_scale: float = 1.0  # the same for texts about a meeting point
+    # Of texts that name places; fitted to texts by language models and by people about many cities.
+    certainty: Certainty | None = None
     grammar_sha256: str = ""  # of the phrases that the reader was trained on
 
 

@@ -20,14 +20,15 @@ class PlaceText:
     """A text about a place."""
 
     text: str
-    goal: LatLon  # the place it describes
+    goal: LatLon | None  # the place it describes; None if the map does not have it, so that every answer is wrong
     start: LatLon | None = None  # the listener's position; None if unknown
 
 
 def load_place_texts(path: Path) -> list[PlaceText]:
     """Read .jsonl or .jsonl.gz, one object a line: `text`, `goal` [lat, lon] and optionally `start` [lat, lon].
 
-    Other fields are ignored. Raise DataError if the file cannot be read, or a line is wrong.
+    `lat` and `lon` may stand for `goal`; `"nowhere": true` says that the map does not have the place. Other fields are
+    ignored. Raise DataError if the file cannot be read, or a line is wrong.
     """
     try:
         with gzip.open(path, "rt", encoding="utf-8") if path.suffix == ".gz" else path.open(encoding="utf-8") as file:
@@ -48,13 +49,14 @@ def _read_texts(path: Path, lines: Any) -> Iterator[PlaceText]:
             start = row.get("start")
             if not isinstance(row["text"], str):
                 raise ValueError("'text' is not a string")
-            text = PlaceText(row["text"], _parse_lat_lon(row["goal"]), None if start is None else _parse_lat_lon(start))
+            goal = None if row.get("nowhere") is True else _parse_lat_lon(row.get("goal") or (row["lat"], row["lon"]))
+            text = PlaceText(row["text"], goal, None if start is None else _parse_lat_lon(start))
             if not any(c.isalnum() for c in text.text):
                 raise ValueError("no words in 'text'")
         except (ValueError, KeyError, TypeError, AttributeError) as error:
             raise DataError(
                 f"{path}, line {number}: {type(error).__name__}: {error}; each line is a JSON object with 'text', "
-                "'goal' [latitude, longitude] and optionally 'start'"
+                "'goal' [latitude, longitude] (or \"nowhere\": true) and optionally 'start'"
             ) from error
         yield text
 

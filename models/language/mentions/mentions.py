@@ -25,6 +25,7 @@ from models.language.mentions.names import Word
 from models.language.mentions.spans import Form, Span
 from models.language.mentions.word_lists import english
 
+MAX_ANCHOR_OBJECTS: Final = 4  # of a name that tells one place
 NO_OBJECTS: Final = np.zeros(0, np.int64)
 NO_WEIGHTS: Final = np.zeros(0)
 NO_LINES: Final = np.zeros((0, 4))
@@ -55,6 +56,12 @@ class Mention:
     def is_unknown(self) -> bool:
         """Whether the words have a name that the map lacks."""
         return self.form == "unknown" or self.lacks_name
+
+    @property
+    def is_anchor(self) -> bool:
+        """Whether the words are the whole name of few objects, a corner, a span or an address."""
+        is_name = self.form == "thing" and self.is_exact and len(self.objects) <= MAX_ANCHOR_OBJECTS
+        return is_name or (self.form in ("corner", "span", "address") and len(self.weights) > 0)
 
     @classmethod
     def from_span(cls, span: Span, words: Sequence[Word], text: str) -> "Mention":

@@ -67,7 +67,9 @@ def find_spans(text: str, lookup: Lookup, language: str = ENGLISH) -> tuple[list
     measures = find_measures(text)  # "twenty-five" metres are not 25th Street
     spans = [s for s in spans if not (s.form == "street" and any(m.contains(words[s.last]) for m in measures))]
     chosen = _with_unknown(_chosen(spans, words), words, text, lookup)
-    return words, [attach_objects(span, lookup) for span in _joined(_as_whole_names(chosen, words, text, lookup), words, text)]
+    return words, [
+        attach_objects(span, lookup) for span in _joined(_as_whole_names(chosen, words, text, lookup), words, text)
+    ]
 
 
 def correct_noun(word: str, lookup: Lookup) -> str:
@@ -310,7 +312,9 @@ def _joined(spans: Sequence[Span], words: Sequence[Word], text: str) -> list[Spa
             joined[-1] = Span(last.first, span.last, "thing", None, last.score, span.kinds)
         elif close and named_kind and span.match is None and span.form == "thing":
             lacks_name = last.form == "unknown"
-            joined[-1] = Span(last.first, span.last, "thing", last.match, last.score + span.score, span.kinds, lacks_name)
+            joined[-1] = Span(
+                last.first, span.last, "thing", last.match, last.score + span.score, span.kinds, lacks_name
+            )
         elif is_kind and between == " " and span.form == "unknown" and last.form == "thing":  # "Hotel Astoria"
             joined[-1] = Span(last.first, span.last, "thing", None, last.score, last.kinds, lacks_name=True)
         elif kind_of_name and _NAMED_SO.fullmatch(between) and characters > MIN_NAME_CHARACTERS:

@@ -19,7 +19,6 @@ from models.language.mentions.cue_reader import CueReader
 from models.language.mentions.lookup import Lookup
 from models.language.mentions.reader import find_mentions, is_meeting, listener_wind, mark_goal
 from models.language.text_encoder import TextEncoder
-from models.posterior.locate import HEAVY_NODES, PLACE_PEAK_RADIUS_M
 from models.posterior.places.explanations import PlacedMentions
 from models.posterior.places.field import CoarseDistances, PlaceField
 from models.posterior.places.kernels import HEADINGS, PlaceKernels
@@ -35,7 +34,6 @@ STEPS = 100
 LEARNING_RATE = 0.06
 PULL_WEIGHT = 0.005  # of the squared distance from the initial weights, in the loss
 TEMPER_SCALES = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5)  # candidate factors of `temper`
-RADIUS_MASS = 0.9  # probability that the calibrated radius contains
 SAMPLED_CELLS = 4000  # for the mean of a kernel over the map
 
 
@@ -65,7 +63,6 @@ class KernelExample:
     goal_m: Floats
     cell: Ints
     centers_m: Floats
-    is_meeting: bool
 
 
 def fit_kernels(
@@ -130,6 +127,8 @@ def _example(
     sample: Ints,
     rng: np.random.Generator,
 ) -> KernelExample | None:
+    if text.goal is None:
+        return None
     mentions = find_mentions(text.text, lookup, cues)
     listener_m = None if text.start is None else texts.frame.from_wgs84(*text.start)
     meets = listener_m is not None or is_meeting(text.text)
@@ -158,7 +157,6 @@ def _example(
         goal_m=goal,
         cell=group,
         centers_m=centers[cells],
-        is_meeting=meets,
     )
 
 
@@ -182,16 +180,15 @@ def _log_p(example: KernelExample) -> Tensor:
 
 def calibrate_kernels(
     kernels: PlaceKernels, examples: Sequence[KernelExample], steps: int, rng: np.random.Generator
-) -> tuple[float, float, float]:
-    """Calibrate probabilities and radii by two-fold cross-fitting; the kernels are unchanged afterwards.
+) -> float:
+    """Calibrate probabilities by two-fold cross-fitting; the kernels are unchanged afterwards.
 
     Returns:
-        The factor of `temper` that makes the probability of the best cell match its hit rate; then the .9 quantile of
-        error / 90 % radius for texts about the own position, and for meeting points (1 without any).
+        The factor of `temper` that makes the probability of the best cell match its hit rate.
     """
     start = {name: value.clone() for name, value in kernels.state_dict().items()}
     half = rng.permutation(len(examples)) % 2
-    outcomes = np.zeros((len(TEMPER_SCALES), len(examples), 3))
+    outcomes = np.zeros((len(TEMPER_SCALES), len(examples), 2))
     for side in (0, 1):
         kernels.load_state_dict(start)
         fit_kernels(kernels, [example for n, example in enumerate(examples) if half[n] != side], steps, rng)
@@ -203,26 +200,15 @@ def calibrate_kernels(
                     if half[n] == side:
                         outcomes[k, n] = _outcome(example)
     kernels.load_state_dict(start)
-    best = int(np.argmin(np.abs(outcomes[:, :, 0].mean(axis=1) - outcomes[:, :, 1].mean(axis=1))))
-    meets = np.array([example.is_meeting for example in examples])
-    ratio = outcomes[best, :, 2]
-    own, meeting = (float(np.quantile(ratio[mask], RADIUS_MASS)) if mask.any() else 1.0 for mask in (~meets, meets))
-    return TEMPER_SCALES[best], own, meeting
+    return TEMPER_SCALES[int(np.argmin(np.abs(outcomes[:, :, 0].mean(axis=1) - outcomes[:, :, 1].mean(axis=1))))]
 
 
-def _outcome(example: KernelExample) -> tuple[float, float, float]:
-    """Return the probability of the best cell, whether it is the true one, and error / 90 % radius of the position."""
+def _outcome(example: KernelExample) -> tuple[float, float]:
+    """Return the probability of the best cell, and whether it is the true one."""
     weight = _log_p(example).softmax(0).double().numpy()
     mass = np.bincount(example.cell, weight, len(example.centers_m))
     best = int(mass.argmax())
-    hit = best == int(np.hypot(*(example.centers_m - example.goal_m).T).argmin())
-    heavy = np.argsort(-weight)[:HEAVY_NODES]
-    squared_m2 = ((example.points_m[heavy][:, None] - example.points_m[heavy][None]) ** 2).sum(axis=2)
-    position = example.points_m[heavy[(np.exp(-((squared_m2 / PLACE_PEAK_RADIUS_M**2) ** 3)) @ weight[heavy]).argmax()]]
-    radius = np.hypot(*(example.points_m - position).T)
-    order = np.argsort(radius)
-    p90 = radius[order][np.searchsorted(np.cumsum(weight[order]), RADIUS_MASS)]
-    return float(mass[best]), float(hit), float(np.hypot(*(position - example.goal_m)) / max(p90, NODE_SPACING_M))
+    return float(mass[best]), float(best == int(np.hypot(*(example.centers_m - example.goal_m).T).argmin()))
 
 
 def _log_prior(points_m: Floats, listener_m: Floats | None) -> Floats:

@@ -44,7 +44,7 @@ def train_places(
         progress: called with the name of the phase, steps done, steps, and the mean loss.
 
     Returns:
-        Accuracy of the two cue readers on new texts, the mean loss of the kernels, and the scales of the radii.
+        Accuracy of the two cue readers on new texts, and the mean loss of the kernels.
 
     Raises:
         WeightsError, MapError, DataError: an input cannot be read.
@@ -59,13 +59,12 @@ def train_places(
     examples = [
         example for texts in map_texts for example in read_examples(kernels, texts, model.text_encoder, cues_for, rng)
     ]
-    temper, own, meeting = calibrate_kernels(kernels, examples, steps, rng)
+    temper = calibrate_kernels(kernels, examples, steps, rng)
     loss = fit_kernels(kernels, examples, steps, rng, progress and partial(progress, "fit kernels"))
     with torch.no_grad():
         kernels.temper.add_(log(temper))
     model.places = kernels
-    model.config = model.config.model_copy(update={"place_scale": own, "meeting_scale": meeting})
-    figures |= {"surprise": loss, "temper_scale": temper, "place_scale": own, "meeting_scale": meeting}
+    figures |= {"surprise": loss, "temper_scale": temper}
     fitted_to = {path.name: [file.name for file in files] for path, files in maps}
     save_posterior(model, out, record | {"places": figures | {"texts": fitted_to, "seed": seed, "steps": steps}})
     return figures
