@@ -25,8 +25,8 @@ def train(
         str,
         typer.Option(
             help="a retriever (mncl, text2loc, ret, text2pos), a fine stage (regressor, matching), points (a point "
-            "encoder for either), posterior, places (the posterior's cue readers and place kernels), or certainty (how sure its answers are; each "
-            "--data is then an index)"
+            "encoder for either), posterior, places (the posterior's cue readers and place kernels), or certainty (how "
+            "sure the answers are; each --data is then an index)"
         ),
     ] = "mncl",
     change: Annotated[

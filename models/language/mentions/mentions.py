@@ -71,8 +71,8 @@ class Mention:
         if span.match is None:
             return cls(*common, kinds=kinds)
         match = span.match
-        candidates = match.objects, match.weights, NO_LINES, match.trust, match.is_exact
-        return cls(*common, *candidates, kinds, span.lacks_name)
+        mention = cls(*common, match.objects, match.weights, NO_LINES, match.trust, match.is_exact, kinds)
+        return replace(mention, lacks_name=True) if span.lacks_name else mention
 
 
 _SIDE = re.compile(
