@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from index.answering.answers import Evidence, Method, ModelName, Question
+from index.answering.evidence import calibrated_evidence
 from index.answering.filters import log_prior, nodes_inside
 from index.answering.meanings import Meanings
 from index.answering.place_reader import PlaceReader, near_hints, possibly_near_hints, with_one_owner
@@ -131,8 +132,9 @@ class PosteriorLocalizer:
         if place_evidence is not None:
             facts = _text_facts(query, language, mentions, len(hints), result.evidence, located.other)
             located = replace(located, facts=facts, certainty=self.weights.config.certainty)
-        result = replace(result, located=located, evidence=with_description_spans(query.description, result.evidence))
         fits = any(hint.explained >= EXPLAINED_PROBABILITY for hint in result.evidence)
+        evidence = with_description_spans(query.description, calibrated_evidence(result.evidence, located))
+        result = replace(result, located=located, evidence=evidence)
         if not fits and reply_evidence is not None:
             warnings += (REPLIES_ONLY,)
         if not fits and reply_evidence is None and result.evidence:

@@ -17,6 +17,7 @@ DISTANCES_M: Final = np.array(
 )
 MIN_SHARE: Final = 1e-4  # of masses, whose logit is taken
 LOG_STEPS: Final = np.log(DISTANCES_M / 30.0) / 3.0  # how far a distance is from 30 m, by which weights change
+EVIDENCE_M: Final = 100.0
 NEAREST_M: Final = 0.5  # within which the curve begins
 
 
@@ -52,7 +53,7 @@ class TextFacts:
             unexplained=min(unexplained, 3) / 3,
             is_foreign=float(foreign),
             is_meeting=float(meeting),
-            other=float(logit(np.array(other))) / 4,
+            other=logit_of(other) / 4,
         )
 
 
@@ -64,6 +65,12 @@ class Certainty(BaseModel):
     levels: tuple[float, ...]  # [G] of each distance
     share: tuple[float, float]  # of the logit of the mass within the distance
     facts: tuple[tuple[float, float], ...]  # of each field of TextFacts
+    evidence: tuple[float, ...]  # of `evidence_features`
+
+    def explained(self, features: Floats) -> Floats:
+        """Return the probabilities [n] that mentions mean the objects shown for them, by `evidence_features` [n, E]."""
+        shares: Floats = 1.0 / (1.0 + np.exp(-features @ np.array(self.evidence)))
+        return shares
 
     def curve(self, shares: Floats, facts: TextFacts) -> Floats:
         """Return the probabilities [G] of being within DISTANCES_M, from the masses [G] within them."""
@@ -71,6 +78,22 @@ class Certainty(BaseModel):
         weights = np.array(self.facts)
         z = z + np.array(astuple(facts)) @ (weights[:, :1] + weights[:, 1:] * LOG_STEPS)
         return np.maximum.accumulate(1.0 / (1.0 + np.exp(-z)))
+
+
+def evidence_features(evidence: Floats, within: Floats) -> Floats:
+    """Return the features [n, E] of mentions and hints.
+
+    Args:
+        evidence: [n, 3] probability that the object shown explains it if the estimate is right; 1 where the words are
+            a whole name, else 0; 1 for hints about nearby objects, else 0.
+        within: [n] calibrated probability that the estimate is right, to `EVIDENCE_M`.
+    """
+    return np.column_stack([np.ones(len(evidence)), logit(evidence[:, 0]), evidence[:, 1:], logit(within)])
+
+
+def logit_of(share: float) -> float:
+    """Return `logit` of one probability."""
+    return float(logit(np.array([share]))[0])
 
 
 def logit(shares: Floats) -> Floats:

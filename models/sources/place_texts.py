@@ -16,19 +16,30 @@ LatLon = tuple[float, float]  # degrees
 
 
 @dataclass(frozen=True, slots=True)
+class LabelledMention:
+    """A stretch of a text that means an object."""
+
+    start: int  # characters
+    end: int
+    object: str | None  # source id ("node/123") or name of a street; None if the map does not have it
+
+
+@dataclass(frozen=True, slots=True)
 class PlaceText:
     """A text about a place."""
 
     text: str
     goal: LatLon | None  # the place it describes; None if the map does not have it, so that every answer is wrong
     start: LatLon | None = None  # the listener's position; None if unknown
+    mentions: tuple["LabelledMention", ...] = ()  # what the writer meant, if known
 
 
 def load_place_texts(path: Path) -> list[PlaceText]:
     """Read .jsonl or .jsonl.gz, one object a line: `text`, `goal` [lat, lon] and optionally `start` [lat, lon].
 
-    `lat` and `lon` may stand for `goal`; `"nowhere": true` says that the map does not have the place. Other fields are
-    ignored. Raise DataError if the file cannot be read, or a line is wrong.
+    `lat` and `lon` may stand for `goal`; `"nowhere": true` says that the map does not have the place. `mentions`
+    are labels: {"text", "object"}. Other fields are ignored. Raise DataError if the file cannot be read, or a line is
+    wrong.
     """
     try:
         with gzip.open(path, "rt", encoding="utf-8") if path.suffix == ".gz" else path.open(encoding="utf-8") as file:
@@ -50,7 +61,8 @@ def _read_texts(path: Path, lines: Any) -> Iterator[PlaceText]:
             if not isinstance(row["text"], str):
                 raise ValueError("'text' is not a string")
             goal = None if row.get("nowhere") is True else _parse_lat_lon(row.get("goal") or (row["lat"], row["lon"]))
-            text = PlaceText(row["text"], goal, None if start is None else _parse_lat_lon(start))
+            mentions = tuple(_locate_mentions(row["text"], row.get("mentions", ())))
+            text = PlaceText(row["text"], goal, None if start is None else _parse_lat_lon(start), mentions)
             if not any(c.isalnum() for c in text.text):
                 raise ValueError("no words in 'text'")
         except (ValueError, KeyError, TypeError, AttributeError) as error:
@@ -59,6 +71,17 @@ def _read_texts(path: Path, lines: Any) -> Iterator[PlaceText]:
                 "'goal' [latitude, longitude] (or \"nowhere\": true) and optionally 'start'"
             ) from error
         yield text
+
+
+def _locate_mentions(text: str, rows: Any) -> Iterator[LabelledMention]:
+    """Find labelled words in a text, in its order."""
+    end = 0
+    for row in rows:
+        start = text.find(row["text"], end)
+        if start < 0:
+            raise ValueError(f"'{row['text']}' is not in the text, or not in this order")
+        end = start + len(row["text"])
+        yield LabelledMention(start, end, row["object"])
 
 
 def _parse_lat_lon(value: Any) -> LatLon:

@@ -8,7 +8,16 @@ import numpy as np
 from scipy.optimize import minimize
 
 from models.citymap.types import Floats
-from models.posterior.certainty import DISTANCES_M, LOG_STEPS, Certainty, TextFacts, logit
+from models.posterior.certainty import (
+    DISTANCES_M,
+    EVIDENCE_M,
+    LOG_STEPS,
+    Certainty,
+    TextFacts,
+    evidence_features,
+    logit,
+    probability_within,
+)
 
 TEXTS_PER_CITY: Final = 60  # cities with more texts count no more than this
 RIDGE: Final = 1.0  # pull of the weights of facts to 0
@@ -25,6 +34,8 @@ class CityTexts:
     shares: Floats  # [Q, G] masses within DISTANCES_M
     facts: Sequence[TextFacts]  # [Q]
     extent_m: float
+    evidence: Floats  # [L, 4] labelled evidence of all texts: the row of its text, and as for `evidence_features`
+    is_right: Floats  # [L] 1 where it shows the object that the writer meant, else 0
 
 
 def fit_certainty(cities: Sequence[CityTexts]) -> Certainty:
@@ -74,8 +85,35 @@ def fit_certainty(cities: Sequence[CityTexts]) -> Certainty:
 
     found = minimize(loss, start, jac=True, method="L-BFGS-B", options={"maxiter": 2000}).x.round(DIGITS).tolist()
     by_fact = found[distances + 2 :]
-    return Certainty(
+    certainty = Certainty(
         levels=tuple(found[:distances]),
         share=(found[distances], found[distances + 1]),
         facts=tuple(zip(by_fact[:count], by_fact[count:], strict=True)),
+        evidence=(),
     )
+    features = np.concatenate([labelled_features(certainty, city) for city in cities])
+    evidence = _fit_evidence(features, np.concatenate([city.is_right for city in cities]))
+    return certainty.model_copy(update={"evidence": evidence})
+
+
+def labelled_features(certainty: Certainty, city: CityTexts) -> Floats:
+    """Return the features [L, E] of the labelled evidence of a city."""
+    rows = city.evidence[:, 0].astype(int)
+    within = [
+        probability_within(certainty.curve(shares, facts), EVIDENCE_M)
+        for shares, facts in zip(city.shares, city.facts, strict=True)
+    ]
+    return evidence_features(city.evidence[:, 1:], np.array(within)[rows])
+
+
+def _fit_evidence(features: Floats, is_right: Floats) -> tuple[float, ...]:
+    """Fit a logistic regression of labelled evidence: features [L, E], right or not [L]."""
+    pull = RIDGE * np.append(0.0, np.ones(features.shape[1] - 1))
+
+    def loss(weights: Floats) -> tuple[float, Floats]:
+        z = features @ weights
+        total = float(np.logaddexp(0.0, np.where(is_right > 0, -z, z)).sum()) + float(pull @ weights**2)
+        return total, features.T @ (1.0 / (1.0 + np.exp(-z)) - is_right) + 2.0 * pull * weights
+
+    start = np.zeros(features.shape[1])
+    return tuple(minimize(loss, start, jac=True, method="L-BFGS-B").x.round(DIGITS).tolist())
