@@ -289,10 +289,12 @@ def _text_facts(
     other: float,  # mass outside the candidates
 ) -> TextFacts:
     known = [mention for mention in mentions if not mention.is_unknown and not mention.is_denied]
+    unknown = sum(mention.is_unknown for mention in mentions)
+    unexplained = sum(item.explained < EXPLAINED_PROBABILITY for item in evidence if not item.absent)
     return TextFacts.count(
-        unknown=sum(mention.is_unknown for mention in mentions),
+        unknown=unknown,
         understood=len(known) + hints,
-        unexplained=sum(item.explained < EXPLAINED_PROBABILITY for item in evidence if not item.absent),
+        unexplained=max(0, unexplained - unknown),
         other=other,
         anchor=any(mention.is_anchor for mention in known),
         foreign=language != ENGLISH,

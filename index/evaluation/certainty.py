@@ -130,7 +130,9 @@ def measure(certainty: Certainty, city: CityTexts) -> dict[str, Any]:
         "p90_holds": round(float((city.error_m <= radii[:, 1]).mean()), 4),
         "median_p90_m": round(float(np.median(radii[:, 1])), 1),
         "brier": dict(zip(map(str, WITHIN_M), ((claimed - hit) ** 2).mean(axis=0).round(4).tolist(), strict=True)),
-        "evidence": calibration(explained, city.is_right > 0) if len(explained) else None,
+        "evidence_error": calibration(explained, city.is_right > 0)["expected_calibration_error"]
+        if len(explained)
+        else None,
     }
 
 

@@ -28,7 +28,7 @@ class TextFacts:
     unknown_names: float  # names that the map lacks, 0 to 1
     has_anchor: float  # 1 with a whole name of few objects, a corner, span or address; else 0
     understood: float  # log(1 + mentions and hints on the map)
-    unexplained: float  # mentions and hints that nothing at the estimate explains, 0 to 1
+    unexplained: float  # other mentions and hints that nothing at the estimate explains, 0 to 1
     is_foreign: float  # 1 if the text is not English
     is_meeting: float  # 1 if it describes a meeting point
     other: float  # logit of the mass outside the candidates, by 4

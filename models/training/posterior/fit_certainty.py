@@ -22,6 +22,7 @@ from models.posterior.certainty import (
 TEXTS_PER_CITY: Final = 60  # cities with more texts count no more than this
 RIDGE: Final = 1.0  # pull of the weights of facts to 0
 SMOOTHNESS: Final = 5.0  # pull of the levels to a line
+MAX_UNKNOWN_NAMES_WEIGHT: Final = -0.5  # set by hand: texts with a made-up name are else as right as others
 DIGITS: Final = 4
 
 
@@ -83,11 +84,14 @@ def fit_certainty(cities: Sequence[CityTexts]) -> Certainty:
         gradient += np.concatenate([pull, [0.0, 0.0], 2.0 * RIDGE * facts])
         return total, gradient
 
-    found = minimize(loss, start, jac=True, method="L-BFGS-B", options={"maxiter": 2000}).x.round(DIGITS).tolist()
-    by_fact = found[distances + 2 :]
+    names = {distances + 2: MAX_UNKNOWN_NAMES_WEIGHT, distances + 2 + count: 0.0}
+    bounds = [(None, names.get(n)) for n in range(len(start))]
+    found = minimize(loss, start, jac=True, method="L-BFGS-B", bounds=bounds, options={"maxiter": 2000})
+    weights = found.x.round(DIGITS).tolist()
+    by_fact = weights[distances + 2 :]
     certainty = Certainty(
-        levels=tuple(found[:distances]),
-        share=(found[distances], found[distances + 1]),
+        levels=tuple(weights[:distances]),
+        share=(weights[distances], weights[distances + 1]),
         facts=tuple(zip(by_fact[:count], by_fact[count:], strict=True)),
         evidence=(),
     )

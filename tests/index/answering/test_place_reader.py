@@ -202,15 +202,14 @@ def test_nouns_are_read_where_they_stand_in_the_text(localizer, monkeypatch) -> 
     assert {"bench", "tree"} <= set(given)
 
 
-def test_radii_are_scaled_by_what_the_text_is_of(localizer, monkeypatch) -> None:
-    weights = localizer.posterior.weights
-    widths = []
-    for scales in ({"place_scale": 1.0, "meeting_scale": 1.0}, {"place_scale": 2.0, "meeting_scale": 3.0}):
-        monkeypatch.setattr(weights, "config", weights.config.model_copy(update=scales))
-        texts = ("I'm at East Street 2 and North Path 3", "Meet me at East Street 2 and North Path 3")
-        widths.append([answer(localizer, text).estimate.radius_m.p50 for text in texts])
-    assert widths[1][0] == pytest.approx(2 * widths[0][0])
-    assert widths[1][1] == pytest.approx(3 * widths[0][1])
+def test_certainty_is_calibrated_by_how_the_text_was_understood(localizer) -> None:
+    known, doubtful = (
+        answer(localizer, text).estimate
+        for text in ("I'm at East Street 2 and North Path 3", "I'm at East Street 2 and North Path 3, by Hotel Astoria")
+    )
+    assert known.within_m[30] > doubtful.within_m[30]
+    assert known.radius_m.p90 < doubtful.radius_m.p90
+    assert list(known.within_m.values()) == sorted(known.within_m.values())
 
 
 def test_what_is_said_of_a_place_to_meet_at_is_not_what_is_near(localizer) -> None:

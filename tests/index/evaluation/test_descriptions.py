@@ -42,7 +42,7 @@ def test_where_nothing_can_be_said_nothing_is_found(localizer) -> None:
 
 def test_what_is_found_in_another_scene_is_not_found_though_a_circle_holds_it() -> None:
     position = (3.0, 4.0)
-    estimate = Estimate(position, "posterior", ((1.0, 0.0), (0.0, 1.0)), Radius(1.0, 2.0), 0.9, None)
+    estimate = Estimate(position, "posterior", ((1.0, 0.0), (0.0, 1.0)), Radius(1.0, 2.0), {}, 0.9, None)
     candidates = tuple(
         Candidate(1, cell, 1.0, 0.9, (*position, 0.0), (0.0, 0.0, 9.0, 9.0), position, None) for cell in ("a", "b")
     )

@@ -32,5 +32,5 @@ def test_radii_are_as_honest_as_validation_says(located) -> None:
     honest = replace(located, calibrated_masses=(0.35, 0.75))
     assert honest.radii_m(0.5, 0.9) == pytest.approx(located.radii_m(0.35, 0.75))
     assert honest.radii_m(0.7) == pytest.approx(located.radii_m(0.55)), "between them, in proportion"
-    assert replace(located, radius_scale=2.0).radii_m(0.55)[0] == pytest.approx(2 * located.radii_m(0.55)[0])
-    assert replace(located, radius_scale=2.0).radii_m(0.95) == (1000.0,), "no wider than the map"
+    assert honest.probability_within(35.0) == pytest.approx(0.5 * 0.3 / 0.35)
+    assert honest.probability_within(1000.0) == 1.0

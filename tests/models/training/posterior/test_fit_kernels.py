@@ -105,10 +105,6 @@ def test_texts_that_name_nothing_are_left_out() -> None:
     assert cases_of(kernels, {"hello there": (0, 0)}) == []
 
 
-def test_who_is_told_to_meet_is_known() -> None:
-    assert [case.is_meeting for case in cases_of(PlaceKernels())] == [False] * 4 + [True]
-
-
 def test_nothing_to_fit_to_is_refused() -> None:
     with pytest.raises(TrainingError):
         fit_kernels(PlaceKernels(), [], 2, np.random.default_rng(0))
@@ -120,17 +116,7 @@ def test_calibrating_makes_what_is_too_sure_less_sure() -> None:
     for name, texts in (("right", TEXTS), ("wrong", wrong)):
         kernels = PlaceKernels()
         before = kernels.scale.detach().clone()
-        scale, own, meeting = calibrate_kernels(kernels, cases_of(kernels, texts), 2, np.random.default_rng(0))
-        assert own > 0
-        assert meeting > 0
+        scale = calibrate_kernels(kernels, cases_of(kernels, texts), 2, np.random.default_rng(0))
         assert torch.equal(kernels.scale, before), "it is as it was given"
         temper[name] = scale
     assert temper["wrong"] < temper["right"]
-
-
-def test_without_meetings_their_radii_are_as_they_are() -> None:
-    kernels = PlaceKernels()
-    texts = {"right next to Bottino": (213, 96), "I'm at 25th and 10th": (202, 84)}
-    _, own, meeting = calibrate_kernels(kernels, cases_of(kernels, texts), 2, np.random.default_rng(0))
-    assert meeting == 1.0
-    assert own != 1.0
