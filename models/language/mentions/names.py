@@ -26,9 +26,28 @@ STREET_ABBREVIATIONS: Final = {
 STREET_KINDS: Final = frozenset(STREET_ABBREVIATIONS.values()) | frozenset(
     ["way", "alley", "row", "walk", "path", "esplanade", "circle", "loop", "bridge", "strasse", "allee", "damm"]
 )
+# Words for kinds of streets that stand before a name, in plain form, with the little words between them and the name
+STREET_PREFIXES: Final = frozenset(
+    (
+        "rue", "avenue", "boulevard", "cours", "place", "quai", "allee", "impasse", "chemin", "passage", "square",
+        "pont", "faubourg", "montee", "esplanade", "promenade", "route", "voie", "sentier", "villa",
+        "calle", "avenida", "plaza", "paseo", "carrera", "ronda", "carrer", "avinguda", "placa", "passeig",
+        "via", "viale", "piazza", "corso", "vicolo", "largo", "salita",
+        "rua", "travessa", "praca", "alameda", "estrada", "calcada",
+        "ulica", "ul", "aleja", "al", "plac", "pl", "duong", "hem", "jalan", "strada", "bulevardul", "sharia",
+    )
+)  # fmt: skip
+_LINKS: Final = frozenset(
+    (
+        "de", "du", "des", "la", "le", "les", "l", "d", "del", "las", "los", "da", "do", "dos", "das", "di", "della",
+        "degli", "dei", "of", "the",
+    )
+)  # fmt: skip
+_LETTERS: Final = str.maketrans({"đ": "d", "ð": "d", "ł": "l", "ø": "o", "ı": "i", "æ": "ae", "œ": "oe", "þ": "th"})
 _COMPASS: Final = frozenset(COMPASS_OF_LETTERS.values())
 _SHORT: Final = {"lexington": "lex", "madison": "mad", "broadway": "bway", "americas": "americas"}
 _COMPOUND: Final = re.compile(r"(strasse|str)$")
+MIN_LAST_NAME_CHARACTERS: Final = 3
 ORDINAL: Final = re.compile(r"\d+(?:st|nd|rd|th)")
 
 
@@ -90,7 +109,7 @@ def plain_word(word: str) -> str:
     if bare.isascii():
         return bare.casefold()
     folded = unicodedata.normalize("NFKD", bare).casefold()
-    letters = unicodedata.normalize("NFKD", folded)
+    letters = unicodedata.normalize("NFKD", folded).translate(_LETTERS)
     return "".join(c for c in letters if not unicodedata.combining(c))
 
 
@@ -107,6 +126,7 @@ def street_forms(name: str) -> Iterator[tuple[tuple[str, ...], float]]:
     """Yield every form of a street's name with the probability that it means this street."""
     full = full_words(plain_words(name))
     yield full, 1.0
+    yield from _without_prefix(plain_words(name))
     if len(full) < 2:
         if full and full[0] in _SHORT:
             yield (_SHORT[full[0]],), 0.9
@@ -130,3 +150,16 @@ def street_forms(name: str) -> Iterator[tuple[tuple[str, ...], float]]:
             yield (full[0], *bare), 0.95
         if len(bare) == 1 and bare[0] in _SHORT:
             yield (_SHORT[bare[0]],), 0.9
+
+
+def _without_prefix(words: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], float]]:
+    """Yield "emile zola" and "zola" of "cours emile zola", and "faubourg poissonniere" with and without its prefix."""
+    rest = words
+    while len(rest) > 1 and rest[0] in STREET_PREFIXES:
+        rest = rest[1:]
+        while len(rest) > 1 and rest[0] in _LINKS:
+            rest = rest[1:]
+        if len(rest[0]) >= MIN_LAST_NAME_CHARACTERS or len(rest) > 1:
+            yield rest, 0.9
+    if rest is not words and len(rest) > 1 and len(rest[-1]) > MIN_LAST_NAME_CHARACTERS and not rest[-1].isdecimal():
+        yield rest[-1:], 0.6  # people say the last name only: "Pressensé" of Rue Francis de Pressensé

@@ -4,12 +4,14 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain
+from math import cos, radians
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import osmium
 import shapely
+import shapely.affinity
 
 from models.citymap.frame import Frame
 from models.citymap.gazetteer.gazetteer import (
@@ -33,8 +35,15 @@ from models.sources.osm.tags import read_tags
 from models.spool import Spool
 
 NAME_KEYS = (
-    "name", "name:en", "brand", "short_name", "alt_name", "official_name", "old_name", "loc_name", "addr:housename",
+    "name", "name:en", "brand", "short_name", "alt_name", "official_name", "old_name", "loc_name",
 )  # fmt: skip
+METERS_PER_DEGREE = 111_200.0  # of latitude
+HOUSE_NAME_KEY = "addr:housename"  # an address for those in the house: the name of a building without another
+# Settlements and districts that are points in the map become circles. Radii in metres, set by hand
+DISTRICT_RADII_M = {
+    "city": 4000.0, "town": 1500.0, "borough": 1500.0, "suburb": 700.0, "village": 600.0, "quarter": 400.0,
+    "neighbourhood": 300.0, "hamlet": 250.0, "locality": 150.0, "isolated_dwelling": 100.0,
+}  # fmt: skip
 NON_STREET_HIGHWAYS = frozenset(
     ("proposed", "construction", "bus_stop", "street_lamp", "platform", "elevator", "corridor")
 )
@@ -168,8 +177,9 @@ def _with_geometry(
 ) -> Iterator[_OsmObject]:
     """Yield an object with its geometry, of a way its known part; nothing if nothing is known."""
     counts = counts or ReadingCounts()
+    radius_m = DISTRICT_RADII_M.get(element.tags.get("place", "")) if form == "n" else None
     try:
-        wkb = create[form](element)
+        wkb = create[form](element) if radius_m is None else _circle(element, radius_m)
     except (osmium.InvalidLocationError, RuntimeError):  # nodes that the extract left out, or a broken ring
         line = known_line(element) if form == "w" else None
         if line is None:
@@ -178,7 +188,15 @@ def _with_geometry(
             return
         counts.cut[CUT_REASON] += 1
         wkb = shapely.to_wkb(line, hex=True)
-    yield _OsmObject(wkb, item, form == "a", nodes or {})
+    yield _OsmObject(wkb, item, form == "a" or radius_m is not None, nodes or {})
+
+
+def _circle(node: Any, radius_m: float) -> str:
+    """Return the circle around a node in degrees."""
+    degrees = radius_m / METERS_PER_DEGREE
+    scale = cos(radians(node.location.lat))
+    circle = shapely.affinity.scale(shapely.Point(node.location.lon, node.location.lat).buffer(degrees), 1 / scale, 1)
+    return str(shapely.to_wkb(circle, hex=True))
 
 
 def _is_outdoor_area(tags: dict[str, str]) -> bool:
@@ -234,6 +252,8 @@ def _names(tags: dict[str, str]) -> tuple[str, ...]:
     """Return all names of an object without repeats, the one to show first."""
     keys = [*NAME_KEYS, *sorted(key for key in tags if _LANGUAGE.fullmatch(key))]
     names = [part.strip() for key in keys if key in tags for part in tags[key].split(";")]
+    if not names and "building" in tags:
+        names = [tags.get(HOUSE_NAME_KEY, "")]
     if not names and "operator" in tags and OPERATOR_NAMED_KEYS & tags.keys():
         names = [tags["operator"]]
     return tuple(dict.fromkeys(name for name in names if name))[:MAX_NAMES]
