@@ -43,7 +43,9 @@ _LINKS: Final = frozenset(
         "degli", "dei", "of", "the",
     )
 )  # fmt: skip
-_LETTERS: Final = str.maketrans({"đ": "d", "ð": "d", "ł": "l", "ø": "o", "ı": "i", "æ": "ae", "œ": "oe", "þ": "th"})
+_LETTERS: Final = str.maketrans(
+    {"đ": "d", "ð": "d", "ł": "l", "ø": "o", "\u0131": "i", "æ": "ae", "œ": "oe", "þ": "th"}
+)
 _COMPASS: Final = frozenset(COMPASS_OF_LETTERS.values())
 _SHORT: Final = {"lexington": "lex", "madison": "mad", "broadway": "bway", "americas": "americas"}
 _COMPOUND: Final = re.compile(r"(strasse|str)$")
