@@ -179,7 +179,7 @@ class PosteriorLocalizer:
         """Return the hints about nearby objects, these bound to the map, the mentions of places, and their evidence."""
         if self.places is None:
             return hints, self.binding.bind(hints) if hints else None, [], None
-        listener_m = None if query.prior is None else self.frame.position_m(query.prior.position, query.crs)
+        listener_m = None if query.listener is None else self.frame.position_m(query.listener, query.crs)
         text = reader_text(query.description)
         nouns = [(hint.start, hint.end) for hint in hints]
         mentions = self.places.read(text, language, nouns, to_listener=listener_m is not None)
@@ -276,7 +276,7 @@ class PosteriorLocalizer:
 
 def _is_about_another_place(query: Query) -> bool:
     """Return whether a text is about a place away from the speaker, so its objects need not be near the speaker."""
-    is_for_listener = query.prior is not None and listener_wind(query.description) is not None
+    is_for_listener = query.listener is not None and listener_wind(query.description) is not None
     return is_for_listener or is_meeting(query.description)
 
 
@@ -298,7 +298,7 @@ def _text_facts(
         other=other,
         anchor=any(mention.is_anchor for mention in known),
         foreign=language != ENGLISH,
-        meeting=query.prior is not None or is_meeting(query.description),
+        meeting=query.listener is not None or is_meeting(query.description),
     )
 
 

@@ -53,7 +53,9 @@ class Query:
     top_k: int = DEFAULT_TOP_K
     within: Box | Circle | None = None
     prior: Prior | None = None
-    crs: Crs = "map"  # coordinate system of `within` and `prior`
+    # Position of who is spoken to: the text then describes where to meet, and "north of you" is from there.
+    listener: tuple[float, float] | None = None
+    crs: Crs = "map"  # coordinate system of `within`, `prior` and `listener`
     # How positions are found: "none" keeps the centres of cells; "posterior" also ranks the candidates.
     refine: Refine = DEFAULT_REFINE
     heat_map: bool = False  # whether to include the distribution in the answer

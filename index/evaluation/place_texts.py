@@ -84,9 +84,11 @@ def ask(localizer: Localizer, texts: Sequence[PlaceText], progress: Progress) ->
 
 
 def query_of(text: PlaceText) -> Query:
-    """Return the query of a text; one with a start has a prior around it."""
-    prior = None if text.start is None else Prior((text.start[1], text.start[0]), START_SIGMA_M)
-    return Query(text.text, prior=prior, crs="wgs84")
+    """Return the query of a text; one with a start has a listener there, and a prior around it."""
+    if text.start is None:
+        return Query(text.text)
+    start = text.start[1], text.start[0]
+    return Query(text.text, prior=Prior(start, START_SIGMA_M), listener=start, crs="wgs84")
 
 
 def _row(localizer: Localizer, text: PlaceText, answer: Answer) -> tuple[float, float, float, float, bool]:

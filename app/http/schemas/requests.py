@@ -176,8 +176,14 @@ class LocalizeRequest(DescriptionFields):
     top_k: Annotated[int, Strict(), Field(ge=1, le=MAX_TOP_K, description="candidates in the answer")] = DEFAULT_TOP_K
     within: Within | None = None
     prior: PriorPosition | None = None
+    listener: Point | None = Field(
+        None,
+        description="position of whom the description guides to a meeting point, [x, y] or [lon, lat]: 'north of you' "
+        "is then from there; give a prior as well if the meeting point is near",
+    )
     crs: Crs = Field(
-        "map", description="the reference system of within and prior: metres of the map, or longitude and latitude"
+        "map",
+        description="the reference system of within, prior and listener: metres of the map, or longitude and latitude",
     )
     refine: Refine = REFINE
     heat_map: Annotated[bool, Strict()] = Field(False, description="whether to add the position distribution")
@@ -210,6 +216,7 @@ class LocalizeRequest(DescriptionFields):
             top_k=self.top_k,
             within=self.within.to_filter() if self.within else None,
             prior=Prior(self.prior.position, self.prior.sigma_m) if self.prior else None,
+            listener=self.listener,
             crs=self.crs,
             refine=self.refine,
             heat_map=self.heat_map,
@@ -226,6 +233,8 @@ class LocalizeRequest(DescriptionFields):
             points.append(("within.circle.center", self.within.circle.center))
         if self.prior:
             points.append(("prior.position", self.prior.position))
+        if self.listener:
+            points.append(("listener", self.listener))
         return points
 
 

@@ -129,7 +129,7 @@ def test_winds_are_seen_from_the_listener(localizer) -> None:
     text = "Meet me on North Path 2, {} of you."
     positions = {}
     for wind in ("north", "south"):
-        estimate = answer(localizer, text.format(wind), prior=Prior(start, 100.0)).estimate
+        estimate = answer(localizer, text.format(wind), prior=Prior(start, 100.0), listener=start).estimate
         assert estimate is not None
         positions[wind] = estimate.position[1]
     assert positions["north"] > start[1] > positions["south"]
@@ -219,3 +219,12 @@ def test_what_is_said_of_a_place_to_meet_at_is_not_what_is_near(localizer) -> No
     own = answer(localizer, "I'm on East Street 2: " + hints_text)
     assert {one.exact for one in own.evidence} > {None}, "hints about what is near have no exact name"
     assert None not in {one.exact for one in meeting.evidence}
+
+
+def test_a_flat_prior_changes_nothing(localizer) -> None:
+    text = "I'm on East Street 2, near North Path 3, a bench on my right"
+    plain = answer(localizer, text)
+    biased = answer(localizer, text, prior=Prior((0.0, 0.0), 1e7))
+    assert biased.estimate.position == pytest.approx(plain.estimate.position, abs=1.0)
+    assert biased.estimate.radius_m.p90 == pytest.approx(plain.estimate.radius_m.p90, rel=0.05)
+    assert [item.relation for item in biased.evidence] == [item.relation for item in plain.evidence]
