@@ -16,7 +16,7 @@ LatLon = tuple[float, float]  # degrees
 
 
 @dataclass(frozen=True, slots=True)
-class LabelledMention:
+class WrittenMention:
     """A stretch of a text that means an object."""
 
     start: int  # characters
@@ -31,7 +31,7 @@ class PlaceText:
     text: str
     goal: LatLon | None  # the place it describes; None if the map does not have it, so that every answer is wrong
     start: LatLon | None = None  # the listener's position; None if unknown
-    mentions: tuple["LabelledMention", ...] = ()  # what the writer meant, if known
+    mentions: tuple["WrittenMention", ...] = ()  # what the writer meant, if known
 
 
 def load_place_texts(path: Path) -> list[PlaceText]:
@@ -73,7 +73,7 @@ def _read_texts(path: Path, lines: Any) -> Iterator[PlaceText]:
         yield text
 
 
-def _locate_mentions(text: str, rows: Any) -> Iterator[LabelledMention]:
+def _locate_mentions(text: str, rows: Any) -> Iterator[WrittenMention]:
     """Find labelled words in a text, in its order."""
     end = 0
     for row in rows:
@@ -81,7 +81,7 @@ def _locate_mentions(text: str, rows: Any) -> Iterator[LabelledMention]:
         if start < 0:
             raise ValueError(f"'{row['text']}' is not in the text, or not in this order")
         end = start + len(row["text"])
-        yield LabelledMention(start, end, row["object"])
+        yield WrittenMention(start, end, row["object"])
 
 
 def _parse_lat_lon(value: Any) -> LatLon:

@@ -86,8 +86,8 @@ def fit_certainty(cities: Sequence[CityTexts]) -> Certainty:
 
     names = {distances + 2: MAX_UNKNOWN_NAMES_WEIGHT, distances + 2 + count: 0.0}
     bounds = [(None, names.get(n)) for n in range(len(start))]
-    found = minimize(loss, start, jac=True, method="L-BFGS-B", bounds=bounds, options={"maxiter": 2000})
-    weights = found.x.round(DIGITS).tolist()
+    optimum = minimize(loss, start, jac=True, method="L-BFGS-B", bounds=bounds, options={"maxiter": 2000})
+    weights = optimum.x.round(DIGITS).tolist()
     by_fact = weights[distances + 2 :]
     certainty = Certainty(
         levels=tuple(weights[:distances]),
