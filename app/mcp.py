@@ -7,15 +7,13 @@ from mcp.server.mcpserver.exceptions import ToolError
 from pydantic import BaseModel, Field
 
 from app.client import AsyncClient, ServiceError
-from app.http.formats.nominatim import distinct_positions
 from app.http.schemas.responses import LocalizeResponse
-from index.answering.answers import Candidate, Estimate, Evidence, Question
+from index.answering.answers import LikelyPlace, Question
 
 INSTRUCTIONS: Final = """Finds where in a city a person is from a description of what is around them.
 Call `localize` with the person's words. If the position is uncertain, the result has a question: ask the person (or
 answer it yourself if you know), then call `ask` with the same words and all answers so far. Repeat until there is no
 question. `describe_place` describes a position in words."""
-MAX_ALTERNATIVES: Final = 3
 
 
 class PossiblePlace(BaseModel):
@@ -27,6 +25,8 @@ class PossiblePlace(BaseModel):
     x: float = Field(description="metres east in the map frame")
     y: float = Field(description="metres north in the map frame")
     probability: float
+    supports: list[str] = Field(description="what in the text speaks for it")
+    contradicts: list[str] = Field(description="what in the text speaks against it")
 
 
 class FollowUpQuestion(BaseModel):
@@ -45,9 +45,9 @@ class LocatedPerson(BaseModel):
     summary: str
     best: PossiblePlace | None
     within_m: float | None = Field(description="distance from `best` that is not exceeded with 90 % probability")
-    others: list[PossiblePlace]
+    others: list[PossiblePlace] = Field(description="at most four other places, likeliest first")
     question: FollowUpQuestion | None
-    understood: list[str] = Field(description="the mentions in the text, each with the object that explains it")
+    understood: list[str] = Field(description="the mentions in the text, each with how it fits `best`")
 
 
 class PlaceDescription(BaseModel):
@@ -121,28 +121,32 @@ def build_server(client: AsyncClient) -> MCPServer[Any]:
 
 def agent_answer(answer: LocalizeResponse) -> LocatedPerson:
     """Convert an answer of the service for an agent."""
-    best, radius_m = None, None
-    places: list[Estimate | Candidate] = [*answer.candidates]
-    if answer.estimate is not None:
-        best, radius_m = _possible_place(answer.estimate, answer.estimate.place), answer.estimate.radius_m.p90
-        places.insert(0, answer.estimate)
-    distinct = distinct_positions([place.position for place in places])
-    others = [_possible_place(places[n]) for n in distinct[1 : 1 + MAX_ALTERNATIVES]]
+    places = [_possible_place(place) for place in answer.places]
+    best = places[0] if places else None
+    radius_m = answer.estimate.radius_m.p90 if answer.estimate else None
     return LocatedPerson(
         status=answer.status,
         summary=_summary(answer, best, radius_m),
         best=best,
         within_m=radius_m,
-        others=others,
+        others=places[1:],
         question=_question(answer.question) if answer.question else None,
-        understood=[_understood(one) for one in answer.evidence],
+        understood=[one.fit for one in answer.evidence],
     )
 
 
-def _possible_place(answer: Estimate | Candidate, place: str | None = None) -> PossiblePlace:
-    wgs84, (x, y) = answer.wgs84, answer.position
-    lat, lon = (wgs84.lat, wgs84.lon) if wgs84 else (None, None)
-    return PossiblePlace(place=place, lat=lat, lon=lon, x=x, y=y, probability=answer.probability)
+def _possible_place(place: LikelyPlace) -> PossiblePlace:
+    wgs84, (x, y) = place.wgs84, place.position
+    return PossiblePlace(
+        place=place.place,
+        lat=wgs84 and wgs84.lat,
+        lon=wgs84 and wgs84.lon,
+        x=x,
+        y=y,
+        probability=place.probability,
+        supports=list(place.supports),
+        contradicts=list(place.contradicts),
+    )
 
 
 def _summary(answer: LocalizeResponse, best: PossiblePlace | None, radius_m: float | None) -> str:
@@ -152,14 +156,6 @@ def _summary(answer: LocalizeResponse, best: PossiblePlace | None, radius_m: flo
     verdict = "Found" if answer.status == "ok" else "Not sure; most likely"
     question = f" Ask: {answer.question.text}" if answer.question else ""
     return f"{verdict}: {best.place or where} ({where}), within {radius_m:.0f} m (90 %).{question}"
-
-
-def _understood(evidence: Evidence) -> str:
-    explained = evidence.name or evidence.instance
-    away = f", {evidence.away_m:.0f} m away" if evidence.away_m is not None else ""
-    if not explained:
-        return f"{evidence.text}: nothing on the map explains it there"
-    return f"{evidence.text}: {explained}{away}"
 
 
 def _question(question: Question) -> FollowUpQuestion:

@@ -143,6 +143,24 @@ class Evidence:
             "chain; null for nearby objects"
         ),
     ] = None
+    fit: Annotated[str, Field(description="how it fits the estimate, in words")] = ""
+
+
+@dataclass(frozen=True, slots=True)
+class LikelyPlace:
+    """A place where the speaker may be, with all positions that are nearest to it."""
+
+    probability: Annotated[
+        float, Field(description="probability that this is the right place; what is missing to 1 lies elsewhere")
+    ]
+    position: Annotated[tuple[float, float], Field(description="x, y in metres, map frame")]
+    wgs84: Annotated[LatLon | None, Field(description="null if the map has no georeference")]
+    radius_m: Annotated[
+        float, Field(description="radius that contains the speaker with probability 0.9 if this is the right place")
+    ]
+    place: Annotated[str | None, Field(description="the position in words; null on a map without names")] = None
+    supports: Annotated[tuple[str, ...], Field(description="what speaks for it: the `fit` of the evidence there")] = ()
+    contradicts: Annotated[tuple[str, ...], Field(description="what speaks against it")] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,6 +206,7 @@ class Answer:
     estimate: Estimate | None = None
     candidates: tuple[Candidate, ...] = ()
     other_probability: float = 1.0
+    places: tuple[LikelyPlace, ...] = ()
     warnings: tuple[str, ...] = ()
     timings_ms: dict[str, float] = field(default_factory=dict)
     evidence: tuple[Evidence, ...] = ()

@@ -9,6 +9,7 @@ import torch
 from cachetools import LRUCache, cachedmethod
 
 from index.answering.answers import Evidence, Heading
+from index.answering.evidence_text import NOT_FOUND, NOT_ON_MAP, UNKNOWN_NAME, with_fit
 from index.answering.meanings import Meanings
 from index.answering.result import pair
 from models.citymap.gazetteer.gazetteer import Gazetteer
@@ -90,18 +91,28 @@ class PlaceReader:
 
     @torch.inference_mode()
     def evidence(
-        self, mentions: Sequence[Mention], place_evidence: PlaceEvidence | None, position: Floats
+        self,
+        mentions: Sequence[Mention],
+        place_evidence: PlaceEvidence | None,
+        position: Floats,
+        *,
+        has_heading: bool = False,
     ) -> tuple[Evidence, ...]:
-        """Return the evidence of each mention at a position [2]."""
+        """Return the evidence of each mention at a position [2]; with a heading in the text its words use one."""
         known = place_evidence.placed.mentions if place_evidence is not None else ()
         explained = self.field.explain(place_evidence.placed, position[None]) if place_evidence is not None else []
         explanation_of = {id(mention): explanation for mention, explanation in zip(known, explained, strict=True)}
-        return tuple(self._mention_evidence(m, explanation_of.get(id(m)), position) for m in mentions)
+        return tuple(
+            self._mention_evidence(m, explanation_of.get(id(m)), position, has_heading=has_heading) for m in mentions
+        )
 
-    def _mention_evidence(self, mention: Mention, by: MentionExplanation | None, position: Floats) -> Evidence:
+    def _mention_evidence(
+        self, mention: Mention, by: MentionExplanation | None, position: Floats, *, has_heading: bool
+    ) -> Evidence:
         evidence = _unexplained_evidence(mention)
         if by is None or by.item < 0:
-            return evidence
+            unknown = NOT_ON_MAP if mention.kinds else UNKNOWN_NAME
+            return with_fit(evidence, position, missing=unknown if mention.form == "unknown" else NOT_FOUND)
         shown: dict[str, Any] = {"away_m": round(float(np.hypot(*by.offset_m)), 1)}
         shown["at"] = pair(np.round(position + by.offset_m, 2))
         shown["bearing_deg"] = round(float(np.degrees(np.arctan2(*by.offset_m))) % 360, 1)
@@ -111,7 +122,8 @@ class PlaceReader:
             shown |= {"instance": kind, "name": words.names[0] if words.names else None, "source_id": words.source_id}
         label = mention.kinds[0] if mention.kinds else shown.get("instance")
         probability = min(by.probability, MAX_EXPLAINED_LACKING_NAME if mention.lacks_name else 1.0)
-        return replace(evidence, label=label or mention.form, explained=probability, **shown)
+        evidence = replace(evidence, label=label or mention.form, explained=probability, **shown)
+        return with_fit(evidence, position, by.heading_deg if has_heading and mention.cue.angle is not None else None)
 
     @torch.inference_mode()
     def heading(self, place_evidence: PlaceEvidence | None, located: PositionDistribution) -> Heading | None:

@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 
 from index.answering.answers import Evidence, Method, ModelName, Question
-from index.answering.evidence import calibrated_evidence
+from index.answering.evidence_text import EXPLAINED_PROBABILITY, NOT_FOUND, NOT_ON_MAP, speaks_for, with_fit
 from index.answering.filters import log_prior, nodes_inside
 from index.answering.meanings import Meanings
 from index.answering.place_reader import PlaceReader, near_hints, possibly_near_hints, with_one_owner
 from index.answering.place_text import place_text
 from index.answering.query import Query
 from index.answering.ranking import Ranker
-from index.answering.result import LocalizerResult, elapsed_ms, is_ambiguous, pair
+from index.answering.result import LocalizerResult, PlaceView, elapsed_ms, is_ambiguous, pair
 from index.answering.text_chunks import ChunkReader, reader_text, with_description_spans
 from index.asking.known_facts import KnownFacts
 from index.asking.questions import Questions
@@ -25,6 +25,7 @@ from models.citymap.frame import Frame
 from models.citymap.gallery import Gallery
 from models.citymap.gazetteer.gazetteer import EMPTY_GAZETTEER, Gazetteer
 from models.citymap.points import Ints
+from models.citymap.types import Floats
 from models.language.mentions.contradictions import contradictions
 from models.language.mentions.languages import ENGLISH, LANGUAGE_NAMES, detect_language
 from models.language.mentions.mentions import Mention
@@ -51,7 +52,6 @@ CACHED_DESCRIPTIONS = 256  # retriever vectors of the latest descriptions
 PLACE_CANDIDATE_CELLS = 128  # examined cells for texts that name places
 REPLY_CANDIDATE_CELLS = 1024  # without hints: a reply may name a street of some kilometres
 MIN_MARGIN_NATS = 4.0  # of the first retrieved cell over the last; fitted on validation (docs/method.md#candidates)
-EXPLAINED_PROBABILITY = 0.5  # from here on a hint counts as explained
 NO_HINTS = (
     "the description does not say what is around the speaker; mention objects and directions, for example "
     "'I am north of a gray building.'"
@@ -129,15 +129,16 @@ class PosteriorLocalizer:
             return LocalizerResult(None, OUTSIDE_MAP, timings_ms=timings, warnings=warnings)
         start = time.perf_counter()
         result = self._explain(located, hints, bound_hints, mentions, place_evidence)
+        first, *others = result.views
         if place_evidence is not None:
-            facts = _text_facts(query, language, mentions, len(hints), result.evidence, located.other)
+            facts = _text_facts(query, language, mentions, len(hints), first.evidence, located.other)
             located = replace(located, facts=facts, certainty=self.weights.config.certainty)
-        fits = any(hint.explained >= EXPLAINED_PROBABILITY for hint in result.evidence)
-        evidence = with_description_spans(query.description, calibrated_evidence(result.evidence, located))
-        result = replace(result, located=located, evidence=evidence)
+        first = replace(first, evidence=with_description_spans(query.description, first.evidence))
+        result = replace(result, located=located, views=(first, *others))
+        fits = any(map(speaks_for, first.evidence))
         if not fits and reply_evidence is not None:
             warnings += (REPLIES_ONLY,)
-        if not fits and reply_evidence is None and result.evidence:
+        if not fits and reply_evidence is None and first.evidence:
             result = replace(
                 result, refusal=NO_MATCH, question=self._question_for_refused(query, language, known_facts)
             )
@@ -165,13 +166,17 @@ class PosteriorLocalizer:
         mentions: Sequence[Mention],
         place_evidence: PlaceEvidence | None,
     ) -> LocalizerResult:
-        evidence = self._evidence(hints, bound_hints, located) if bound_hints is not None else ()
-        if self.places is None:
-            return LocalizerResult(located, evidence=evidence)
-        position = located.positions[0]
-        evidence += self.places.evidence(mentions, place_evidence, position)
-        place, heading = place_text(self._gazetteer, position), self.places.heading(place_evidence, located)
-        return LocalizerResult(located, evidence=evidence, place=place, heading=heading)
+        heading = None if self.places is None else self.places.heading(place_evidence, located)
+        views = []
+        for mode in located.modes:
+            position, place = mode.position_m, None
+            evidence = self._evidence(hints, bound_hints, located, position) if bound_hints is not None else ()
+            if self.places is not None:
+                has_heading = heading is not None
+                evidence += self.places.evidence(mentions, place_evidence, position, has_heading=has_heading)
+                place = place_text(self._gazetteer, position)
+            views.append(PlaceView(place, evidence))
+        return LocalizerResult(located, views=tuple(views), heading=heading)
 
     def _read(
         self, query: Query, language: str, hints: Sequence[ParsedHint]
@@ -238,15 +243,18 @@ class PosteriorLocalizer:
         ]
 
     def _evidence(
-        self, hints: Sequence[ParsedHint], bound_hints: BoundHints, located: PositionDistribution
+        self, hints: Sequence[ParsedHint], bound_hints: BoundHints, located: PositionDistribution, position: Floats
     ) -> tuple[Evidence, ...]:
-        node = int(located.points[((located.points_m - located.positions[0]) ** 2).sum(axis=1).argmin()])
+        node = int(located.points[((located.points_m - position) ** 2).sum(axis=1).argmin()])
         explanations = self.nodes.explain(bound_hints, node)
         return tuple(
-            self._hint_evidence(node, *row) for row in zip(hints, bound_hints.label, explanations, strict=True)
+            self._hint_evidence(node, position, *row)
+            for row in zip(hints, bound_hints.label, explanations, strict=True)
         )
 
-    def _hint_evidence(self, node: int, hint: ParsedHint, label: Any, explanation: HintExplanation) -> Evidence:
+    def _hint_evidence(
+        self, node: int, position: Floats, hint: ParsedHint, label: Any, explanation: HintExplanation
+    ) -> Evidence:
         probability = explanation.probability
         colour = int(hint.colour.argmax())
         shown: dict[str, Any] = {}
@@ -261,7 +269,7 @@ class PosteriorLocalizer:
                 "away_m": float(np.hypot(*explanation.offset_m)),
             }
         fits = float(label.max()) >= EXPLAINED_PROBABILITY / 2
-        return Evidence(
+        evidence = Evidence(
             text=hint.noun,
             span=(hint.start, hint.end),
             label=str(self.labels[int(label.argmax())]) if fits else None,
@@ -272,6 +280,7 @@ class PosteriorLocalizer:
             explained=probability,
             **shown,
         )
+        return with_fit(evidence, position, missing=NOT_FOUND if fits else NOT_ON_MAP)
 
 
 def _is_about_another_place(query: Query) -> bool:

@@ -15,11 +15,14 @@ from index.answering.answers import (
     Heading,
     HeatMap,
     LatLon,
+    LikelyPlace,
     Method,
     ModelName,
     Question,
     Radius,
 )
+from index.answering.evidence import calibrated_evidence
+from index.answering.evidence_text import speaks_for
 from index.answering.query import Query
 from models.citymap.cells import CellTable
 from models.citymap.frame import Frame
@@ -32,14 +35,21 @@ MAX_HEAT_POINTS, HEAT_MASS = 500, 0.95  # points of a heat map, and the mass the
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class PlaceView:
+    """A place as a localizer explains it."""
+
+    place: str | None = None  # its position in words
+    evidence: tuple[Evidence, ...] = ()  # one entry per hint, if the localizer gives any
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class LocalizerResult:
     """The result of one query."""
 
     located: PositionDistribution | None  # None without usable text or without cells to search
     refusal: str | None = None  # why there is no match, and what to do about it; None if there is one
-    evidence: tuple[Evidence, ...] = ()  # one entry per hint, if the localizer gives any
+    views: tuple[PlaceView, ...] = ()  # one per mode, if the localizer explains them
     timings_ms: dict[str, float] = field(default_factory=dict)
-    place: str | None = None  # the position in words
     heading: Heading | None = None
     warnings: tuple[str, ...] = ()  # sentences for the caller
     question: Question | None = None  # the follow-up question of an ambiguous or refused text
@@ -65,13 +75,15 @@ def to_answer(
 ) -> Answer:
     """Turn a localizer's result into an answer."""
     located = result.located
+    view = result.views[0] if result.views else PlaceView()
+    evidence = view.evidence if located is None else calibrated_evidence(view.evidence, located)
     if located is None or result.refusal is not None:
         return Answer(
             "no_match",
             localizer.model,
             warnings=(*((result.refusal,) if result.refusal else ()), *result.warnings),
             timings_ms=result.timings_ms,
-            evidence=result.evidence,
+            evidence=evidence,
             question=result.question,
         )
     p50, p90 = located.radii_m(0.5, 0.9)
@@ -84,7 +96,7 @@ def to_answer(
         within_m={metres: round(located.probability_within(metres), 4) for metres in WITHIN_M},
         probability=float(located.probability[0]),
         wgs84=LatLon.from_position(located.positions[0], frame),
-        place=result.place,
+        place=view.place,
         heading=result.heading,
     )
     listed = range(min(query.top_k, len(located.rows)))
@@ -95,9 +107,10 @@ def to_answer(
         estimate=estimate,
         candidates=candidates,
         other_probability=max(0.0, 1.0 - sum(candidate.probability for candidate in candidates)),
+        places=_places(located, result.views, frame),
         warnings=result.warnings,
         timings_ms=result.timings_ms,
-        evidence=result.evidence,
+        evidence=evidence,
         heat_map=_heat_map(located) if query.heat_map else None,
         question=result.question,
     )
@@ -106,6 +119,23 @@ def to_answer(
 def is_ambiguous(located: PositionDistribution) -> bool:
     """Return whether the speaker may well be elsewhere than at the estimate (docs/method.md, status)."""
     return any(located.probability_within(metres) < probability for metres, probability in SURE_WITHIN)
+
+
+def _places(located: PositionDistribution, views: Sequence[PlaceView], frame: Frame) -> tuple[LikelyPlace, ...]:
+    """Return the modes of a distribution with what speaks for and against each."""
+    views = views or [PlaceView()] * len(located.modes)
+    return tuple(
+        LikelyPlace(
+            probability=mode.probability,
+            position=pair(mode.position_m),
+            wgs84=LatLon.from_position(mode.position_m, frame),
+            radius_m=min(mode.radius_m, located.extent_m),
+            place=view.place,
+            supports=tuple(one.fit for one in view.evidence if speaks_for(one)),
+            contradicts=tuple(one.fit for one in view.evidence if not speaks_for(one)),
+        )
+        for mode, view in zip(located.modes, views, strict=True)
+    )
 
 
 def _candidate(located: PositionDistribution, n: int, cells: CellTable, frame: Frame) -> Candidate:

@@ -79,7 +79,7 @@ def read_city(localizer: Localizer, texts: Sequence[PlaceText], progress: Progre
         error_m.append(np.inf if goal_m is None else float(np.hypot(*(located.positions[0] - goal_m))))
         shares.append(located.shares)
         facts.append(located.facts)
-        labelled = [(item, meant) for item in result.evidence if (meant := _meant(item, text)) is not None]
+        labelled = [(item, meant) for item in result.views[0].evidence if (meant := _meant(item, text)) is not None]
         if labelled:
             rows = evidence_facts([item for item, _ in labelled])
             evidence.append(np.column_stack([np.full(len(rows), len(facts) - 1), rows]))

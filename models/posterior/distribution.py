@@ -10,6 +10,7 @@ from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.compiled import compiled
 from models.posterior.certainty import DISTANCES_M, Certainty, TextFacts, probability_within, radius_of
+from models.posterior.modes import Mode, find_modes
 
 # A point stands for a square; radii divide it into up to 5 x 5 squares of at least this width.
 SUBSQUARE_M, MAX_SUBSQUARES_PER_SIDE = 0.75, 5
@@ -35,6 +36,11 @@ class PositionDistribution:
     calibrated_masses: tuple[float, float] = RADIUS_MASSES  # mass that contains RADIUS_MASSES of the truths
     facts: TextFacts | None = None  # how the text was understood, if it names places
     certainty: Certainty | None = None  # calibrates with the facts, instead of the masses
+
+    @cached_property
+    def modes(self) -> tuple[Mode, ...]:
+        """The distinct places of the distribution, first that of the estimate."""
+        return find_modes(self.positions, self.probability, self.points_m, self.weight, self.spacing_m)
 
     def radii_m(self, *shares: float) -> tuple[float, ...]:
         """Return the radii of circles round the first position that contain calibrated shares, such as .5 and .9."""

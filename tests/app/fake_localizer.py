@@ -13,6 +13,7 @@ from index.answering.answers import (
     Fact,
     IndexFacts,
     LatLon,
+    LikelyPlace,
     ModelName,
     Radius,
 )
@@ -99,7 +100,11 @@ class FakeLocalizer:
         )[: query.top_k]
         covariance = ((100.0, 0.0), (0.0, 100.0))
         estimate = Estimate((0.0, 0.0), "cell_center", covariance, Radius(12.0, 21.0), probability, self._wgs84())
-        return Answer("ok", ANSWERED, estimate, candidates, 0.1, timings_ms=timings)
+        places = tuple(
+            LikelyPlace(p, (x, 0.0), self._wgs84(), 15.0, None, ("tree: 3 m to the east",))
+            for x, p in ((0.0, 0.8), (90.0, 0.1))
+        )
+        return Answer("ok", ANSWERED, estimate, candidates, 0.1, places, timings_ms=timings)
 
     def _wgs84(self):
         return LatLon(60.17, 24.94) if self.frame.is_georeferenced else None

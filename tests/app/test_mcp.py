@@ -29,7 +29,8 @@ class Asking(FakeLocalizer):
         if answer.estimate is None:
             return answer
         if query.replies:
-            return replace(answer, estimate=replace(answer.estimate, place="on Main Street"))
+            first, *others = answer.places
+            return replace(answer, places=(replace(first, place="on Main Street"), *others))
         return replace(answer, status="ambiguous", question=QUESTION)
 
 
@@ -61,6 +62,8 @@ def check(tools, first, second, third):
     assert (second["status"], second["question"]) == ("ok", None)
     assert second["best"]["place"] == "on Main Street"
     assert second["best"]["lat"] == pytest.approx(60.17)
+    assert second["best"]["supports"] == ["tree: 3 m to the east"]
+    assert [place["probability"] for place in second["others"]] == [0.1]
     assert second["within_m"] == 21
     assert third["place"] == "on Main Street"
     assert third["description"].startswith("A green tree")

@@ -27,7 +27,7 @@ EXAMPLE = {
 
 
 class LocalizeCollection(FeatureCollection[AnyFeature]):
-    """An answer: a Point for the estimate, then one Polygon per candidate; the rest as foreign members."""
+    """An answer: a Point for the estimate and for each place, a Polygon per candidate; the rest as foreign members."""
 
     request_id: str
     status: Status
@@ -59,6 +59,10 @@ def localize_collection(response: LocalizeResponse, frame: Frame) -> LocalizeCol
         del properties["wgs84"]
         point = _point(response.estimate.position, frame)
         features.append(_feature("estimate", point, {"kind": "estimate", **properties}))
+    for number, place in enumerate(response.places, 1):
+        properties = asdict(place)
+        del properties["wgs84"]
+        features.append(_feature(f"place-{number}", _point(place.position, frame), {"kind": "place", **properties}))
     for candidate in response.candidates:
         properties = {"kind": "candidate", **asdict(candidate)}
         features.append(_feature(candidate.cell_id, _polygon(candidate.bbox, frame), properties))

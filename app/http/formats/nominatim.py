@@ -12,7 +12,7 @@ from models.citymap.frame import Frame
 
 Format = Literal["json", "jsonv2", "geojson"]
 NO_RESULT: Final = {"error": "Unable to geocode"}  # Nominatim's answer, with status 200
-MIN_SEPARATION_M: Final = 30.0  # between two results: candidate cells overlap
+REVERSED_BOX_M: Final = 30.0  # edge of the box of a described position
 PLACE_RANK: Final = 30  # Nominatim's rank of a point of interest or a house
 PLACE_KIND: Final = {"category": "place", "type": "position"}
 
@@ -21,34 +21,22 @@ Box = tuple[float, float, float, float]
 
 
 def search_results(response: LocalizeResponse, localizer: LocalizerLike, limit: int) -> list[Place]:
-    """Return the estimate and the candidates that are at least MIN_SEPARATION_M from better results."""
-    if response.estimate is None:
-        return []
-    estimate = response.estimate
-    spots = [(estimate.position, estimate.radius_m.p90, estimate.probability)]
-    spots += [(cell.position, (cell.bbox[2] - cell.bbox[0]) / 2, cell.probability) for cell in response.candidates]
-    results: list[Place] = []
-    for n in distinct_positions([position for position, _, _ in spots])[:limit]:
-        (x, y), radius_m, probability = spots[n]
-        box = (x - radius_m, y - radius_m, x + radius_m, y + radius_m)
-        results.append(_place(len(results) + 1, (x, y), box, probability, localizer.describe((x, y)), localizer))
+    """Return the places of an answer."""
+    results = []
+    for number, place in enumerate(response.places[:limit], 1):
+        box, described = _box(place.position, place.radius_m), localizer.describe(place.position)
+        results.append(_place(number, place.position, box, place.probability, described, localizer))
     return results
-
-
-def distinct_positions(positions: Sequence[tuple[float, float]]) -> list[int]:
-    """Return the indices of positions that are more than MIN_SEPARATION_M from all earlier ones."""
-    distinct: list[int] = []
-    for n, position in enumerate(positions):
-        if all(np.hypot(*np.subtract(position, positions[k])) > MIN_SEPARATION_M for k in distinct):
-            distinct.append(n)
-    return distinct
 
 
 def reverse_result(described: Described, localizer: LocalizerLike) -> Place:
     """Return a described position as a place."""
-    x, y = described.position
-    box = (x - MIN_SEPARATION_M / 2, y - MIN_SEPARATION_M / 2, x + MIN_SEPARATION_M / 2, y + MIN_SEPARATION_M / 2)
-    return _place(1, described.position, box, 1.0, described, localizer)
+    return _place(1, described.position, _box(described.position, REVERSED_BOX_M / 2), 1.0, described, localizer)
+
+
+def _box(center: tuple[float, float], radius_m: float) -> Box:
+    x, y = center
+    return x - radius_m, y - radius_m, x + radius_m, y + radius_m
 
 
 def _place(

@@ -32,6 +32,17 @@ ANSWERED: JsonValue = {
         "place": "on Kaivokatu, between Keskuskatu and Mikonkatu, 14 m south of Ateneum",
         "heading": {"mean_deg": 271.0, "spread_deg": 18.0},
     },
+    "places": [
+        {
+            "probability": 0.91,
+            "position": [105.0, -35.0],
+            "wgs84": {"lat": 60.1699, "lon": 24.9384},
+            "radius_m": 60.3,
+            "place": "on Kaivokatu, between Keskuskatu and Mikonkatu, 14 m south of Ateneum",
+            "supports": ["Ateneum: 14 m to your right"],
+            "contradicts": [],
+        }
+    ],
     "candidates": [
         {
             "rank": 1,
@@ -62,6 +73,7 @@ ANSWERED: JsonValue = {
             "at": [105.5, -21.0],
             "bearing_deg": 2.0,
             "exact": True,
+            "fit": "Ateneum: 14 m to your right",
         },
     ],
     "heat_map": {"spacing_m": 1.5, "points": [[105.0, -35.0, 0.08]]},

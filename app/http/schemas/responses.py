@@ -21,6 +21,7 @@ from index.answering.answers import (
     Fact,
     HeatMap,
     LatLon,
+    LikelyPlace,
     ModelName,
     Question,
     Status,
@@ -98,7 +99,10 @@ class LocalizeResponse(_Out):
     request_id: str
     status: Status
     estimate: Estimate | None = Field(description="null only if status is no_match")
-    candidates: tuple[Candidate, ...] = Field(description="best first")
+    places: tuple[LikelyPlace, ...] = Field(
+        description="at most five distinct places, likeliest first; the first is that of the estimate"
+    )
+    candidates: tuple[Candidate, ...] = Field(description="the retrieved cells, best first")
     other_probability: float = Field(description="probability outside the listed candidates")
     evidence: tuple[Evidence, ...] = Field(description="one entry per hint; empty unless refine is posterior")
     heat_map: HeatMap | None = Field(description="only if requested")

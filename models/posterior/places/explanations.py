@@ -29,6 +29,7 @@ class MentionExplanation:
     probability: float  # that an object explains the mention
     item: int  # index of the object, then of the line; -1 for none
     offset_m: Floats  # [2] from the position to it
+    heading_deg: float = 0.0  # of the speaker, clockwise from north, that explains the whole text best
 
 
 UNEXPLAINED: Final = MentionExplanation(0.0, -1, np.zeros(2))

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import reduce
-from math import log, pi, radians
+from math import degrees, log, pi, radians
 from typing import Final
 
 import numpy as np
@@ -143,7 +143,8 @@ class PlaceField:
             best, floor = int(best_fit.argmax()), self._floor(mention)
             ratio = (1 - floor) * best_fit[best] / mean
             probability = float(ratio / (ratio + floor))
-            explanations.append(MentionExplanation(probability, int(closest.target[best]), closest.offset_m[best]))
+            explanation = probability, int(closest.target[best]), closest.offset_m[best], degrees(HEADINGS_RAD[heading])
+            explanations.append(MentionExplanation(*explanation))
         return explanations
 
     def closest_points(self, mention: Mention, around: PointGroups) -> ClosestPoints:

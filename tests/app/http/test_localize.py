@@ -19,7 +19,7 @@ TREE = {"question": "near:tree", "choice": "yes"}
 def test_answer_has_exactly_the_names_of_the_api(api, text):
     body = api.post("/localize", json={"description": text, "top_k": 2}).json()
     assert set(body) == {
-        *("request_id", "status", "estimate", "candidates", "other_probability"),
+        *("request_id", "status", "estimate", "places", "candidates", "other_probability"),
         *("crs", "provenance", "timings_ms", "warnings", "evidence", "heat_map", "question", "ros"),
     }
     estimate = body["estimate"]
@@ -39,6 +39,16 @@ def test_answer_has_exactly_the_names_of_the_api(api, text):
         "bbox": [-15, -15, 15, 15],
         "position": [1, 2],
         "wgs84": {"lat": 60.17, "lon": 24.94},
+    }
+    assert [place["probability"] for place in body["places"]] == [0.8, 0.1]
+    assert body["places"][0] == {
+        "probability": 0.8,
+        "position": [0, 0],
+        "wgs84": {"lat": 60.17, "lon": 24.94},
+        "radius_m": 15,
+        "place": None,
+        "supports": ["tree: 3 m to the east"],
+        "contradicts": [],
     }
     origin = {"lat": 60.17, "lon": 24.94}
     assert body["crs"] == {"frame_id": "map", "epsg": None, "origin": origin, "units": "m", "axes": "ENU"}
@@ -85,7 +95,7 @@ def test_geojson_is_lon_lat_and_closed_counter_clockwise(api, text):
     assert response.headers["content-type"] == "application/geo+json"
     assert response.headers["vary"] == "Accept"
     body = response.json()
-    estimate, first, second = body["features"]
+    estimate, place, _, first, second = body["features"]
     assert body["type"] == "FeatureCollection"
     assert body["request_id"] == response.headers["x-request-id"]
     assert body["provenance"]["attribution"] == "© nobody"
@@ -93,6 +103,7 @@ def test_geojson_is_lon_lat_and_closed_counter_clockwise(api, text):
     assert estimate["geometry"]["coordinates"] == pytest.approx([24.94, 60.17])
     assert estimate["properties"]["kind"] == "estimate"
     assert estimate["properties"]["radius_m"]["p90"] == 21
+    assert (place["id"], place["geometry"]["type"], place["properties"]["probability"]) == ("place-1", "Point", 0.8)
     assert (first["id"], second["id"]) == ("fakeville_00001", "fakeville_00002")
     assert first["properties"]["probability"] == 0.6
     [ring] = first["geometry"]["coordinates"]

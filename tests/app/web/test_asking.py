@@ -179,6 +179,22 @@ def test_the_other_places_are_a_click_away(visit):
     assert visitor.shows(visitor.middle()[0] - 9, visitor.middle()[1], ACCENT), "beside the letter"
 
 
+def test_places_stand_in_order_of_probability_with_what_speaks_for_and_against(visit):
+    visitor = visit().open()
+    answer = visitor.ask("I am on East Street 2, right outside the bakery.")
+    page, places = visitor.page, answer["places"]
+    assert len(places) > 1, "else this tests nothing"
+    shares = page.locator(".place .share").all_text_contents()
+    assert shares == [f"{100 * place['probability']:.0f} %" for place in places]
+    assert page.locator(".place .letter").all_text_contents() == list("ABCDE"[: len(places)])
+    for n, place in enumerate(places[1:]):
+        fits = page.locator(".fits").nth(n).locator("li").all_text_contents()
+        assert fits == [
+            *(f"✓for it: {fit}" for fit in place["supports"]),
+            *(f"✗against it: {fit}" for fit in place["contradicts"]),
+        ]
+
+
 def test_no_webgl_is_no_obstacle(playwright, service):
     browser = playwright.chromium.launch(executable_path=CHROMIUM, args=[*SOFTWARE[:1], "--disable-3d-apis"])
     visitor = Visitor(browser.new_page(viewport={"width": 1200, "height": 760}), service)

@@ -98,10 +98,29 @@ def test_evidence_names_what_explains_and_warns_of_what_is_not_there(localizer) 
     unknown = next(hint for text, hint in by_text.items() if "Zorba" in text)
     assert unknown.explained == 0.0
     assert unknown.exact is False
+    assert unknown.fit == f"{unknown.text}: not on this map"
     assert result.estimate is not None
     assert np.hypot(*(result.estimate.position - corner_m(localizer, 2, 3))) < 15.0, (
         "a name that is unknown does no harm"
     )
+
+
+def test_each_place_has_what_speaks_for_and_against_it(localizer) -> None:
+    result = answer(localizer, "I'm on East Street 2, next to Zorba's Taverna")
+    assert len(result.places) > 1, "a street is long"
+    assert result.places[0].position == result.estimate.position
+    assert result.places[0].place == result.estimate.place
+    for place in result.places:
+        assert [text.partition(":")[0] for text in place.supports] == ["East Street 2"]
+        assert place.contradicts == tuple(one.fit for one in result.evidence if not one.explained)
+    assert sum(place.probability for place in result.places) <= 1.0 + 1e-9
+
+
+def test_directions_follow_a_known_heading(localizer) -> None:
+    text = "I'm at East Street 2 and North Path 3. East Street 3 is straight ahead, North Path 2 is on my left."
+    fits = [one.fit for one in answer(localizer, text).evidence]
+    assert any(fit.startswith("East Street 3: ") and fit.endswith("ahead of you") for fit in fits), fits
+    assert any(fit.startswith("North Path 2: ") and "your left" in fit for fit in fits), fits
 
 
 def test_evidence_says_where_what_explains_it_is(localizer) -> None:

@@ -23,6 +23,9 @@ def test_a_radius_beyond_the_size_of_a_cell_is_ambiguous(localizer, times, statu
     answer = to_answer(Query("a tree"), result, localizer.vector_localizer("none"), cells, localizer.frame)
     assert answer.estimate.radius_m.p50 == pytest.approx(times * cells.size_m, rel=0.02)
     assert answer.status == status
+    [place] = answer.places
+    assert place.position == answer.estimate.position
+    assert place.probability == pytest.approx(1.0)
 
 
 def test_a_refused_result_has_no_estimate(localizer) -> None:

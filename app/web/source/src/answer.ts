@@ -3,7 +3,7 @@
 import type { Answer, Evidence, Problem } from "./api";
 import { fill, h } from "./dom";
 import type { Place } from "./places";
-import { count, explains, likely, metres, percent, sentence, sentences, wind } from "./words";
+import { count, likely, metres, percent, sentence, sentences, wind } from "./words";
 
 export interface Acts {
   choose(place: number): void;
@@ -172,7 +172,7 @@ function mentionOf(text: string, evidence: Evidence, mention: number, acts: Acts
       type: "button",
       className: `mention ${fitOf(evidence)} m${mention % 8}`,
       "data-mention": mention,
-      "aria-label": `${text}: ${reason(evidence)}`,
+      "aria-label": evidence.fit,
       onclick: () => acts.visit(mention),
       onmouseenter: () => acts.light(mention),
       onmouseleave: () => acts.light(null),
@@ -183,15 +183,6 @@ function mentionOf(text: string, evidence: Evidence, mention: number, acts: Acts
   );
 }
 
-/** What explains a mention, in words. */
-function reason(evidence: Evidence): string {
-  if (evidence.absent) return evidence.explained >= FITS ? "there is none, as you say" : "there is one";
-  if (fitOf(evidence) === "none") return evidence.label ? "not found here" : "not understood";
-  const what = evidence.name ?? evidence.instance ?? evidence.label ?? "something";
-  const where = [evidence.away_m !== null && evidence.away_m !== undefined && metres(evidence.away_m), evidence.bearing_deg !== null && evidence.bearing_deg !== undefined && wind(evidence.bearing_deg)];
-  return [explains(evidence.explained), [what, ...where.filter(Boolean)].join(", ")].join(" ");
-}
-
 function evidenceList(said: string, answer: Answer, acts: Acts): Element | null {
   const rows = answer.evidence.map((evidence, mention) => {
     const fit = fitOf(evidence);
@@ -199,7 +190,7 @@ function evidenceList(said: string, answer: Answer, acts: Acts): Element | null 
       "li",
       { className: fit, "data-evidence": mention, onmouseenter: () => acts.light(mention), onmouseleave: () => acts.light(null) },
       h("span", { className: `sign m${mention % 8}`, "aria-hidden": "true" }, SIGNS[fit]),
-      h("span", {}, h("b", {}, evidence.text), " ", reason(evidence)),
+      h("span", {}, h("b", {}, evidence.text), (evidence.fit ?? "").slice(evidence.text.length)),
     );
   });
   return h("ul", { className: "evidence", "aria-label": "What was understood" }, ...rows, ...missed(said, answer));
@@ -232,14 +223,26 @@ function others(answer: Answer, places: Place[], chosen: number, acts: Acts): El
         "button",
         { type: "button", className: "place", "aria-pressed": n === chosen, onclick: () => acts.choose(n) },
         h("span", { className: "letter", "aria-hidden": "true" }, place.letter),
-        h("span", {}, place.street ?? (n === 0 && answer.status === "ok" ? "The answer" : `Place ${place.letter}`)),
+        placeName(place),
         h("span", { className: "share" }, percent(place.probability)),
       ),
+      n > 0 && h("ul", { className: "fits" }, ...place.supports.map((fit) => fitRow("solid", fit)), ...place.contradicts.map((fit) => fitRow("none", fit))),
     ),
   );
-  const elsewhere = 1 - places.reduce((sum, place) => sum + place.probability, 0); // the heat map may hold a little less
+  const elsewhere = 1 - places.reduce((sum, place) => sum + place.probability, 0);
   const rest = elsewhere > 0.005 ? h("li", { className: "small" }, `Elsewhere: ${percent(elsewhere)}`) : null;
   const list = h("ol", { className: "places" }, ...rows, rest);
   const amount = places.length === 2 ? "One other place" : `${count(places.length - 1)} other places`;
   return h("details", { className: "others", open: answer.status === "ambiguous" || chosen > 0 }, h("summary", {}, amount), list);
+}
+
+function placeName(place: Place): Element {
+  const [street, ...beside] = (place.name ?? `Place ${place.letter}`).split(", ");
+  return h("span", {}, sentence(street), beside.length > 0 && h("span", { className: "small" }, beside.join(", ")));
+}
+
+/** What speaks for a place, or against it. */
+function fitRow(fit: Fit, text: string): Element {
+  const about = { solid: "for it: ", weak: "", none: "against it: " }[fit];
+  return h("li", { className: fit }, h("span", { className: "sign", "aria-hidden": "true" }, SIGNS[fit]), h("span", {}, h("span", { className: "heard" }, about), text));
 }

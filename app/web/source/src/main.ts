@@ -7,7 +7,7 @@ import { examples } from "./examples";
 import { Measure } from "./measure";
 import { paint, type Shown } from "./overlay";
 import { isSheet, Panel } from "./panel";
-import { boxOf, boxRound, placesOf, streetAt } from "./places";
+import { boxOf, boxRound, placesOf } from "./places";
 import { pointer, type Hand } from "./pointer";
 import { readScenery, type Scenery, type Shape } from "./scenery";
 import { read, write, type State } from "./state";
@@ -67,7 +67,7 @@ class Page implements Acts {
     try {
       const asked = { description: said, top_k: topK, heat_map: true, ...(prior && { prior }), ...(within && { within }), ...(answers.length && { answers }) };
       const answer = await api.localize(asked as api.Asked, asking.signal);
-      this.redraw({ answer, places: placesOf(answer, (at) => streetAt(this.sceneries, at)) });
+      this.redraw({ answer, places: placesOf(answer) });
       this.showAnswer();
       this.panel.reveal();
       const box = boxOf(answer, this.shown.places);

@@ -952,6 +952,12 @@ export interface components {
              * @description named places only: whether the text has a name of it, rather than of another branch of its chain; null for nearby objects
              */
             exact?: boolean | null;
+            /**
+             * Fit
+             * @description how it fits the estimate, in words
+             * @default
+             */
+            fit: string;
         };
         /**
          * Fact
@@ -1230,6 +1236,49 @@ export interface components {
             lon: number;
         };
         /**
+         * LikelyPlace
+         * @description A place where the speaker may be, with all positions that are nearest to it.
+         */
+        LikelyPlace: {
+            /**
+             * Probability
+             * @description probability that this is the right place; what is missing to 1 lies elsewhere
+             */
+            probability: number;
+            /**
+             * Position
+             * @description x, y in metres, map frame
+             */
+            position: [
+                number,
+                number
+            ];
+            /** @description null if the map has no georeference */
+            wgs84: components["schemas"]["LatLon"] | null;
+            /**
+             * Radius M
+             * @description radius that contains the speaker with probability 0.9 if this is the right place
+             */
+            radius_m: number;
+            /**
+             * Place
+             * @description the position in words; null on a map without names
+             */
+            place?: string | null;
+            /**
+             * Supports
+             * @description what speaks for it: the `fit` of the evidence there
+             * @default []
+             */
+            supports: string[];
+            /**
+             * Contradicts
+             * @description what speaks against it
+             * @default []
+             */
+            contradicts: string[];
+        };
+        /**
          * Limits
          * @description The limits of the service.
          */
@@ -1436,6 +1485,7 @@ export interface components {
          *           "bearing_deg": 2,
          *           "exact": true,
          *           "explained": 0.98,
+         *           "fit": "Ateneum: 14 m to your right",
          *           "instance": "tourism/museum",
          *           "label": "tourism/museum",
          *           "name": "Ateneum",
@@ -1459,6 +1509,25 @@ export interface components {
          *         "spacing_m": 1.5
          *       },
          *       "other_probability": 0.78,
+         *       "places": [
+         *         {
+         *           "contradicts": [],
+         *           "place": "on Kaivokatu, between Keskuskatu and Mikonkatu, 14 m south of Ateneum",
+         *           "position": [
+         *             105,
+         *             -35
+         *           ],
+         *           "probability": 0.91,
+         *           "radius_m": 60.3,
+         *           "supports": [
+         *             "Ateneum: 14 m to your right"
+         *           ],
+         *           "wgs84": {
+         *             "lat": 60.1699,
+         *             "lon": 24.9384
+         *           }
+         *         }
+         *       ],
          *       "provenance": {
          *         "attribution": "© OpenStreetMap contributors",
          *         "index": "default",
@@ -1571,8 +1640,13 @@ export interface components {
             /** @description null only if status is no_match */
             estimate: components["schemas"]["Estimate"] | null;
             /**
+             * Places
+             * @description at most five distinct places, likeliest first; the first is that of the estimate
+             */
+            places: components["schemas"]["LikelyPlace"][];
+            /**
              * Candidates
-             * @description best first
+             * @description the retrieved cells, best first
              */
             candidates: components["schemas"]["Candidate"][];
             /**

@@ -26,12 +26,6 @@ export function likely(probability: number): string {
   return "only one guess of several";
 }
 
-/** How well something explains what was said. */
-export function explains(probability: number): string {
-  if (probability >= 0.9) return "surely";
-  return probability >= 0.5 ? "probably" : "hardly";
-}
-
 export function wind(degrees: number): string {
   return WINDS[Math.round((((degrees % 360) + 360) % 360) / 45) % 8];
 }
