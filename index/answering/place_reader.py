@@ -12,10 +12,12 @@ from index.answering.answers import Evidence, Heading
 from index.answering.evidence_text import NOT_FOUND, NOT_ON_MAP, UNKNOWN_NAME, with_fit
 from index.answering.meanings import Meanings
 from index.answering.result import pair
+from models.citymap.frame import Frame
 from models.citymap.gazetteer.gazetteer import Gazetteer
 from models.citymap.kinds.vocabulary import load_vocabulary
 from models.citymap.types import Floats
 from models.language.measures import Measure, compass_name, distance_in_text
+from models.language.mentions.codes.reader import CodeReader
 from models.language.mentions.cue_reader import CueReader
 from models.language.mentions.languages import ENGLISH
 from models.language.mentions.lookup import Lookup
@@ -52,10 +54,12 @@ class PlaceReader:
         grid_m: float,  # spacing of the centres
         meanings: Meanings | None = None,  # None to go without paraphrases
         names: NameTable | None = None,  # built if None
+        frame: Frame | None = None,  # None to go without codes
     ) -> None:
         self.gazetteer, self.field = gazetteer, PlaceField(kernels, gazetteer, centers_m, grid_m)
         self.meanings, self._cues = meanings, cues
         self._lookup = Lookup(gazetteer, load_vocabulary(), text_encoder.is_everyday, names)
+        self._codes = None if frame is None else CodeReader(self._lookup, frame, centers_m)
         self._cache: LRUCache[tuple[str, str, tuple[tuple[int, int], ...]], list[Mention]] = LRUCache(
             CACHE_BYTES, _memory_bytes
         )
@@ -76,7 +80,7 @@ class PlaceReader:
     @cachedmethod(lambda reader: reader._cache)
     def _mentions(self, description: str, language: str, nouns: tuple[tuple[int, int], ...]) -> list[Mention]:
         like = None if self.meanings is None else self.meanings.like
-        return find_mentions(description, self._lookup, self._cues, language, nouns, like)
+        return find_mentions(description, self._lookup, self._cues, language, nouns, like, self._codes)
 
     def place_evidence(
         self, mentions: Sequence[Mention], description: str, listener_m: Floats | None
@@ -233,6 +237,6 @@ def _relation_word(mention: Mention) -> str:
     if cue.angle is not None:
         side = "left" if cue.angle < 0 else "right"
         return next(words.format(side) for most, words in _SIDE_WORDS if abs(cue.angle) <= most)
-    if mention.form in ("corner", "span", "address"):
+    if mention.form in ("corner", "span", "address", "point"):
         return mention.form
     return "near" if cue.relation == "seen" else cue.relation

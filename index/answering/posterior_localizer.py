@@ -92,7 +92,7 @@ class PosteriorLocalizer:
         self.places: PlaceReader | None = None
         if len(gazetteer):
             centers_m = gallery.cells.center_m[:, :2].astype(np.float64)
-            map_arguments = gazetteer, model.text_encoder, centers_m, grid_m, meanings, names
+            map_arguments = gazetteer, model.text_encoder, centers_m, grid_m, meanings, names, frame
             self.places = PlaceReader(model.places, model.cues, *map_arguments)
         self.questions = Questions(
             self.nodes.nearby_objects, list(self.labels), palette, gazetteer, gallery.cells, landmarks
@@ -115,8 +115,7 @@ class PosteriorLocalizer:
         warnings = _language_warnings(language)
         hints, bound_hints, mentions, place_evidence = self._read(query, language, hints)
         timings = {"encode": encode_ms + elapsed_ms(start)}
-        unknown = (f"'{mention.text}' was not found on the map" for mention in mentions if mention.is_unknown)
-        warnings += (*unknown, *contradictions(mentions))
+        warnings += (*(mention.warning for mention in mentions if mention.warning), *contradictions(mentions))
         known_facts = KnownFacts.from_text(bound_hints, mentions, list(self.labels), self._gazetteer)
         if not hints and place_evidence is None and reply_evidence is None:
             question = self._question_for_refused(query, language, known_facts)

@@ -25,7 +25,7 @@ from models.sources.kitti360pose.files import list_scenes, select_scenes
 from models.sources.store.layout import MANIFEST as STORE_MANIFEST
 
 MANIFEST: Final = "manifest.json"
-FORMAT: Final = 12
+FORMAT: Final = 13
 ADVICE: Final = "build it with 'hereabouts index --map MAP --out DIR'"
 REQUIRED_FILES: Final = frozenset(
     {"vectors.faiss", "hints.safetensors", "cells.safetensors", "cells.json", "gazetteer.safetensors"}

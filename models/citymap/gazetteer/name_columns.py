@@ -15,7 +15,13 @@ from models.strings import Column, StringArray, merge_columns
 
 STREET_KIND: Final = "street"  # the kind of a street with all its pieces
 _NUMBER_SEPARATOR: Final = re.compile("[;,&]")
+_CODE_SPACES: Final = re.compile(r"[\s-]")
 Mask = npt.NDArray[np.bool_]
+
+
+def plain_code(code: str) -> str:
+    """Return a reference or postcode without spaces and hyphens, in lower case."""
+    return _CODE_SPACES.sub("", code.lower())
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +33,7 @@ class GazetteerObject:
     number: str | None = None  # of its address
     street: str | None = None  # of its address
     source_id: str | None = None  # the element it was read from ("way/1234")
+    codes: tuple[str, ...] = ()  # what else it is known by, after its kind of code: "stop h2002", "post 00120"
 
     @property
     def numbers(self) -> tuple[str, ...]:
@@ -42,8 +49,8 @@ class ObjectTable(Sequence[GazetteerObject]):
         known: all kinds, ascending.
         kind_starts: [O + 1] object o has the kinds kind_starts[o] to kind_starts[o + 1].
         kinds: [K] int32, index into `known`.
-        starts: [O + 1] object o has the strings starts[o] to starts[o + 1]: names, number, street, source.
-        written: [O, 3] bool, whether the object has each of the last three.
+        starts: [O + 1] object o has the strings starts[o] to starts[o + 1]: names, number, street, source, codes.
+        written: [O, 4] bool, whether the object has each of the last four.
         strings: of all objects.
     """
 
@@ -69,8 +76,9 @@ class ObjectTable(Sequence[GazetteerObject]):
         row = range(len(self))[n]
         kinds = self._kinds[self._kind_starts[row] : self._kind_starts[row + 1]].tolist()
         strings = self._strings[int(self._string_starts[row]) : int(self._string_starts[row + 1])]
-        source, street, number = (strings.pop() if has else None for has in self._written[row, ::-1].tolist())
-        return GazetteerObject(tuple(self._all_kinds[kind] for kind in kinds), tuple(strings), number, street, source)
+        codes, source, street, number = (strings.pop() if has else None for has in self._written[row, ::-1].tolist())
+        names, own_kinds = tuple(strings), tuple(self._all_kinds[kind] for kind in kinds)
+        return GazetteerObject(own_kinds, names, number, street, source, tuple(codes.split(";")) if codes else ())
 
     @property
     def known_kinds(self) -> Sequence[str]:
@@ -140,7 +148,7 @@ class ObjectTableBuilder:
         """Add objects; may be none."""
         kinds = [self._kinds.setdefault(kind, len(self._kinds)) for item in objects for kind in item.kinds]
         written = np.array([[one is not None for one in _optional_texts(item)] for item in objects], np.bool_).reshape(
-            -1, 3
+            -1, 4
         )
         names = np.array([len(item.names) for item in objects], np.int32)
         strings = [one.encode() for item in objects for one in (*item.names, *_optional_texts(item)) if one is not None]
@@ -165,5 +173,5 @@ class ObjectTableBuilder:
         return ObjectTable(known, kind_starts, number[columns["kinds"]], starts, columns["written"], strings)
 
 
-def _optional_texts(item: GazetteerObject) -> tuple[str | None, str | None, str | None]:
-    return item.number, item.street, item.source_id
+def _optional_texts(item: GazetteerObject) -> tuple[str | None, ...]:
+    return item.number, item.street, item.source_id, ";".join(item.codes) or None

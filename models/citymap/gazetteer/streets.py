@@ -77,7 +77,9 @@ def join_streets(pieces: StreetPieces, first: int) -> Streets:
     objects, segments = [], []
     for rows in streets:
         names = dict.fromkeys(name for n in rows for name in pieces.objects[n].names)
-        objects.append(GazetteerObject((STREET_KIND,), tuple(names), source_id=pieces.objects[rows[0]].source_id))
+        codes = dict.fromkeys(code for n in rows for code in pieces.objects[n].codes)
+        source_id = pieces.objects[rows[0]].source_id
+        objects.append(GazetteerObject((STREET_KIND,), tuple(names), source_id=source_id, codes=tuple(codes)))
         segments.append(columns["segments_m"][_rows_of(columns["segments_of"], np.array(rows))])
     meets = _shared_nodes(columns, streets, first)
     for pair, points in _crossings_without_node(segments, first):

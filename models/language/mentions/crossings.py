@@ -1,4 +1,4 @@
-"""Combine streets of a text (corners, spans between two cross streets, house numbers), and resolve repeated ones."""
+"""Combine streets of a text (corners, spans between two cross streets), and resolve repeated ones."""
 
 import re
 from collections.abc import Sequence
@@ -9,7 +9,6 @@ import numpy as np
 
 from models.citymap.points import Ints
 from models.citymap.types import Floats
-from models.language.measures import find_measures
 from models.language.mentions.cues import Cue
 from models.language.mentions.lookup import Lookup
 from models.language.mentions.mentions import Mention
@@ -23,31 +22,6 @@ _AGAIN = _W.pattern("streets", "again")  # a street repeated by its kind: "I'm o
 _LOOSELY, _BETWEEN = _W.pattern("streets", "loosely"), _W.pattern("streets", "between")
 _SURELY = re.compile(r"\b(?:and|at|meets|crosses|corner of)\b|[&/@]", re.IGNORECASE)
 _AT_END = re.compile(r"\s*(?:$|[.,;!?\n]|corner\b|crossing\b|intersection\b)", re.IGNORECASE)
-_NUMBER = re.compile(r"(?<![\w.])(?:number |no\.? |#)?(\d{1,5}[a-z]?)\s+$", re.IGNORECASE)
-_NUMBER_AFTER = re.compile(r"\s+(?:number |no\.? |#)?(\d{1,4}[a-z]?)(?!\w|\.\d|\s*(?:and|/)\b)", re.IGNORECASE)
-
-
-def add_addresses(mentions: Sequence[Mention], text: str, lookup: Lookup) -> list[Mention]:
-    """Turn streets with a house number before or after them into addresses."""
-    result, measures = [], find_measures(text)
-    for mention in mentions:
-        before, after = _NUMBER.search(text[: mention.start]), _NUMBER_AFTER.match(text, mention.end)
-        if after and any(measure.start <= after.start(1) < measure.end for measure in measures):
-            after = None
-        number = before or after
-        if mention.form != "street" or number is None:
-            result.append(mention)
-            continue
-        start, end = (before.start(), mention.end) if before else (mention.start, number.end(1))
-        objects, lines = lookup.address(number[1], mention.objects)
-        words = text[start:end]
-        if not len(objects) and not len(lines):
-            result += [mention, Mention(words, start, end, "unknown")]
-            continue
-        weights = np.ones(len(objects) or len(lines))
-        is_exact = len(objects) > 0
-        result.append(Mention(words, start, end, "address", objects, weights, lines, 1.0, is_exact=is_exact))
-    return result
 
 
 def add_corners(text: str, mentions: Sequence[Mention], lookup: Lookup) -> list[Mention]:

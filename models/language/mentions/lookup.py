@@ -15,6 +15,8 @@ from models.citymap.gazetteer.name_columns import STREET_KIND
 from models.citymap.kinds.vocabulary import Vocabulary
 from models.citymap.points import Ints
 from models.citymap.types import Floats
+from models.language.mentions.abbreviations import written_out
+from models.language.mentions.house_numbers import NumberMatch, first_value, match_number, plain_number
 from models.language.mentions.languages import ENGLISH
 from models.language.mentions.name_table import NUMBER_SEPARATOR, NameTable
 from models.language.mentions.names import ARTICLES, full_words, plain_word, plain_words
@@ -27,7 +29,11 @@ MIN_PART_SHARE: Final = 0.35  # of the word weights of a name that a part must h
 PART_WEIGHT: Final = 0.5  # weight of a partial match next to exact ones
 MAX_CACHED_PHRASES: Final = 4096  # with their kinds, and with their streets
 MAX_CACHED_BYTES: Final = 2**24  # of objects by kind
+# Between neighbours of the same side: up to this, interpolation is off by 20 m in the median, 45 m in a tenth of cases,
+# measured by leaving out known numbers of 18 cities; beyond, by 40 and 150 m.
+MAX_INTERPOLATED_M: Final = 150.0
 _NONE: Final = np.zeros(0, np.int64)
+NO_LINES: Final = np.zeros((0, 4))
 OWN_KINDS: Final = {ADDRESS_KIND, STREET_KIND, WALKED_KIND}  # of the gazetteer
 EMPTY: Final = ARTICLES | english().list("empty")
 
@@ -40,6 +46,15 @@ class Match:
     weights: Floats  # [n] relative
     trust: float  # probability that the words mean one of them
     is_exact: bool  # whether the words are a whole name, or another name of a chain
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class AddressMatch:
+    """Where a house number is."""
+
+    objects: Ints  # [n] of the gazetteer that have it
+    lines_m: Floats  # [e, 4] without such objects, a position between its neighbours
+    match: NumberMatch  # which numbers of the map it means
 
 
 class Lookup:
@@ -72,8 +87,11 @@ class Lookup:
 
     def _streets_of(self, words: tuple[str, ...]) -> Match | None:
         rows = self._table.streets.find(" ".join(words))
-        if not len(rows):
-            rows = self._table.streets.find(" ".join(full_words(words)))
+        readings = (full_words(words), *written_out(words)) if not len(rows) else ()
+        for reading in readings:
+            rows = self._table.streets.find(" ".join(reading))
+            if len(rows):
+                break
         if not len(rows):
             return None
         weights = self._table.weight[rows]
@@ -99,28 +117,38 @@ class Lookup:
         }
         return _match(weights, 0.8, is_exact=False)
 
-    def address(self, number: str, streets: Ints) -> tuple[Ints, Floats]:
-        """Return the objects with a house number in streets, else positions [n, 4] interpolated between its neighbours.
-
-        Both are empty for a number past the end of the street.
-        """
+    def address(self, number: str, streets: Ints) -> AddressMatch | None:
+        """Return where a house number of streets is; None if it is past their ends, or far from its neighbours."""
         of_streets = (name for s in streets for name in self.gazetteer.objects[s].names)
-        names = dict.fromkeys(" ".join(full_words(plain_words(name))) for name in of_streets)
-        known = {n: rows for name in names for n, rows in self._table.numbers.with_prefix(name + NUMBER_SEPARATOR)}
-        if not known:
-            return np.zeros(0, np.int64), np.zeros((0, 4))
-        same = [rows for n, rows in known.items() if n == number.lower()]
-        if same:
-            return np.concatenate([np.array(rows) for rows in same]), np.zeros((0, 4))
-        plain = {int(n): rows[0] for n, rows in known.items() if n.isdecimal()}
-        wanted = int("".join(c for c in number if c.isdigit()))
-        low = max((n for n in plain if n < wanted and n % 2 == wanted % 2), default=None)
-        high = min((n for n in plain if n > wanted and n % 2 == wanted % 2), default=None)
-        if low is None or high is None:
-            return np.zeros(0, np.int64), np.zeros((0, 4))
-        middles, share = self.gazetteer.middles_m, (wanted - low) / (high - low)
-        position = (1 - share) * middles[plain[low]] + share * middles[plain[high]]
-        return np.zeros(0, np.int64), np.concatenate([position, position])[None]
+        return self.address_of_names(number, [full_words(plain_words(name)) for name in of_streets])
+
+    def address_of_names(self, number: str, names: Sequence[tuple[str, ...]]) -> AddressMatch | None:
+        """Return where a house number is in streets or places whose names are given in plain words."""
+        known = dict[str, Ints]()
+        for name in dict.fromkeys(" ".join(words) for words in names):
+            for key, rows in self._table.numbers.with_prefix(name + NUMBER_SEPARATOR):
+                known[key] = np.concatenate([known.get(key, _NONE), rows])
+        match = match_number(number, known)
+        if match is None:
+            return None
+        if match.numbers:
+            return AddressMatch(np.concatenate([known[one] for one in match.numbers]), NO_LINES, match)
+        (low, low_m), (high, high_m) = (
+            (n, self.gazetteer.middles_m[known[numbers[0]]].mean(axis=0)) for n, numbers in match.between
+        )
+        if np.hypot(*(high_m - low_m)) > MAX_INTERPOLATED_M:
+            return None
+        share = (first_value(plain_number(number)) - low) / (high - low)
+        position = (1 - share) * low_m + share * high_m
+        return AddressMatch(_NONE, np.concatenate([position, position])[None], match)
+
+    def coded(self, kind: str, code: str) -> Ints:
+        """Return the objects with a code: a stop, an exit or a road with a reference, an address with a postcode."""
+        return self._table.codes.find(f"{kind} {code}").astype(np.int64)
+
+    def has_numbers(self, name: tuple[str, ...]) -> bool:
+        """Return whether a street or place of a name has house numbers."""
+        return next(self._table.numbers.with_prefix(" ".join(name) + NUMBER_SEPARATOR), None) is not None
 
     def named(self, words: Sequence[str]) -> Match | None:
         """Return the objects with a name, or with names of which the words are a distinctive part."""

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import Final
+from typing import Final, Literal
 
 import numpy as np
 
@@ -21,14 +21,15 @@ from models.language.measures import (
 )
 from models.language.mentions.cue_reader import CueReader, ReadCue
 from models.language.mentions.cues import NO_CUE, Cue
+from models.language.mentions.lookup import NO_LINES
 from models.language.mentions.names import Word
 from models.language.mentions.spans import Form, Span
 from models.language.mentions.word_lists import english
 
 MAX_ANCHOR_OBJECTS: Final = 4  # of a name that tells one place
+MentionForm = Form | Literal["point"]  # of a code, such as coordinates
 NO_OBJECTS: Final = np.zeros(0, np.int64)
 NO_WEIGHTS: Final = np.zeros(0)
-NO_LINES: Final = np.zeros((0, 4))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,7 +39,7 @@ class Mention:
     text: str
     start: int
     end: int
-    form: Form  # of the mention; "unknown" for a name that the map lacks
+    form: MentionForm  # of the mention; "unknown" for a name that the map lacks
     objects: Ints = field(default_factory=lambda: NO_OBJECTS)  # [n] candidates of the gazetteer
     # [n + e] relative weights of the objects, then of the lines
     weights: Floats = field(default_factory=lambda: NO_WEIGHTS)
@@ -51,6 +52,12 @@ class Mention:
     is_denied: bool = False  # whether the text says that it is not there: "not near Kiasma"
     cue: Cue = NO_CUE  # where it is from the speaker
     side: float | None = None  # degrees of the stated side ("the north side of"); None without one
+    note: str = ""  # what was assumed to find it, or why it was not found, as a sentence for the caller
+
+    @property
+    def warning(self) -> str:
+        """Return what the caller should know; often nothing."""
+        return self.note or (f"'{self.text}' was not found on the map" if self.is_unknown else "")
 
     @property
     def is_unknown(self) -> bool:
@@ -61,7 +68,7 @@ class Mention:
     def is_anchor(self) -> bool:
         """Whether the words are the whole name of few objects, a corner, a span or an address."""
         is_name = self.form == "thing" and self.is_exact and len(self.objects) <= MAX_ANCHOR_OBJECTS
-        return is_name or (self.form in ("corner", "span", "address") and len(self.weights) > 0)
+        return is_name or (self.form in ("corner", "span", "address", "point") and len(self.weights) > 0)
 
     @classmethod
     def from_span(cls, span: Span, words: Sequence[Word], text: str) -> "Mention":
@@ -89,7 +96,7 @@ _ON_TOP = re.compile(r"\bon[\s-]top of\s+(?:[a-z-]+\s+){0,3}$", re.IGNORECASE)
 def add_cues(text: str, mentions: Sequence[Mention], reader: CueReader) -> list[Mention]:
     """Return mentions with their cues, without those that are absent or not meant."""
     mentions = [mention for n, mention in enumerate(mentions) if not _is_repeated(text, mention, mentions[:n])]
-    read = reader.read(text, [(mention.start, mention.end, mention.form) for mention in mentions])
+    read = reader.read(text, [(m.start, m.end, "address" if m.form == "point" else m.form) for m in mentions])
     meant = [
         (mention, cue)
         for mention, cue in zip(mentions, read, strict=True)

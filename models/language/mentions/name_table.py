@@ -21,7 +21,7 @@ from models.strings import Postings, PostingsBuilder, merge_columns
 
 FILE: Final = "names.safetensors"
 NUMBER_SEPARATOR: Final = "\t"  # between a street and a house number
-_POSTINGS: Final = ("names", "words", "spellings", "numbers", "streets", "street_words")
+_POSTINGS: Final = ("names", "words", "spellings", "numbers", "codes", "streets", "street_words")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -32,6 +32,7 @@ class NameTable:
     words: Postings  # from a word to the rows of the names with it
     spellings: Postings  # from another name of a chain to objects: Kentucky Fried Chicken is KFC
     numbers: Postings  # from a street in full, NUMBER_SEPARATOR and a house number to its objects
+    codes: Postings  # from a code to its objects: "stop h2002"
     streets: Postings  # from a form of a street's name to rows of the next two
     street_words: Postings  # the words of these forms; its numbers are unused
     street: Ints  # [R] an object that the form means
@@ -42,11 +43,14 @@ class NameTable:
         cls, gazetteer: Gazetteer, vocabulary: Vocabulary, is_common: Callable[[str], bool]
     ) -> "NameTable":
         """Build the table of a gazetteer; arguments as of Lookup."""
-        names, numbers, others = PostingsBuilder(), PostingsBuilder(), list[tuple[str, int]]()
+        names, numbers, codes = PostingsBuilder(), PostingsBuilder(), PostingsBuilder()
+        others = list[tuple[str, int]]()
         forms = dict[tuple[str, int], float]()
         for number, words in enumerate(gazetteer.objects):
             for address in _addresses(words):
                 numbers.add(address, number)
+            for code in words.codes:
+                codes.add(code, number)
             if words.kinds == (STREET_KIND,):
                 for form, weight in (form for name in words.names for form in street_forms(name)):
                     key = " ".join(form), number
@@ -73,6 +77,7 @@ class NameTable:
             ),
             Postings.from_pairs((" ".join(plain), number) for plain, number in spelt if is_new(plain)),
             numbers.build(),
+            codes.build(),
             Postings.from_pairs((form, row) for row, (form, _) in enumerate(forms)),
             Postings.from_pairs((word, 0) for form, _ in forms for word in form.split()),
             np.array([number for _, number in forms], np.int64),

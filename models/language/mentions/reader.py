@@ -6,8 +6,9 @@ from dataclasses import replace
 from typing import Final
 
 from models.language.measures import COMPASS_WORD, find_measures, first_bearing
+from models.language.mentions.addresses import add_addresses
+from models.language.mentions.codes.reader import CodeReader
 from models.language.mentions.crossings import (
-    add_addresses,
     add_corners,
     add_repeated_streets,
     resolve_repeated_streets,
@@ -17,8 +18,9 @@ from models.language.mentions.discourse import with_standing, without_corrected
 from models.language.mentions.languages import ENGLISH
 from models.language.mentions.lookup import Lookup
 from models.language.mentions.mentions import Mention, add_cues
+from models.language.mentions.names import Word
 from models.language.mentions.paraphrases import FindParaphrase, add_paraphrases
-from models.language.mentions.spans import find_spans
+from models.language.mentions.spans import Span, find_spans
 from models.language.mentions.word_lists import english
 
 MAX_OBJECTS: Final = 2500  # a mention with more candidates is ignored
@@ -35,25 +37,49 @@ def find_mentions(
     language: str = ENGLISH,
     nouns: Sequence[tuple[int, int]] = (),
     find_paraphrase: FindParaphrase | None = None,
+    codes: CodeReader | None = None,
 ) -> list[Mention]:
     """Return the mentions of a text with their cues, in text order, without absent things.
 
-    Cues are read in English only. `nouns` are characters start..end from the hint reader.
+    Cues are read in English only. `nouns` are characters start..end from the hint reader; `codes` reads coordinates
+    and references.
     """
+    coded = [] if codes is None else codes.find(text)
+    bare = _blanked(text, coded)
     if language != ENGLISH:
-        words, spans = find_spans(text, lookup, language)
-        mentions = add_addresses([Mention.from_span(span, words, text) for span in spans], text, lookup)
-        return [mention for mention in mentions if len(mention.objects) <= MAX_OBJECTS]
-    text = _without_listener(text)
-    words, spans = find_spans(text, lookup)
+        return _mentions(bare, coded, lookup, codes, *find_spans(bare, lookup, language))
+    text, bare = (_without_listener(one) for one in (_blanked(text, [m for m in coded if m.form != "thing"]), bare))
+    words, spans = find_spans(bare, lookup)
     if find_paraphrase is not None:
-        spans = add_paraphrases(spans, words, nouns, text, lookup, find_paraphrase)
-    mentions = add_addresses([Mention.from_span(span, words, text) for span in spans], text, lookup)
-    mentions = [mention for mention in mentions if len(mention.objects) <= MAX_OBJECTS]
+        spans = add_paraphrases(spans, words, nouns, bare, lookup, find_paraphrase)
+    mentions = _mentions(bare, coded, lookup, codes, words, spans)
     streets = [mention for mention in mentions if mention.form == "street"]
     mentions = with_standing(text, without_corrected(text, add_corners(text, mentions, lookup)))
     cued = add_cues(text, add_repeated_streets(text, mentions), cues)
     return resolve_repeated_streets(cued, streets, lookup)
+
+
+def _mentions(
+    bare: str,
+    coded: Sequence[Mention],
+    lookup: Lookup,
+    codes: CodeReader | None,
+    words: Sequence[Word],
+    spans: Sequence[Span],
+) -> list[Mention]:
+    """Return the mentions of spans with addresses and codes, without those that could be almost anything."""
+    mentions = add_addresses([Mention.from_span(span, words, bare) for span in spans], bare, lookup)
+    if codes is not None:
+        postcodes = list(codes.postcodes(bare, [*mentions, *coded]))
+        mentions = sorted([*mentions, *coded, *postcodes], key=lambda mention: mention.start)
+    return [mention for mention in mentions if len(mention.objects) <= MAX_OBJECTS]
+
+
+def _blanked(text: str, mentions: Sequence[Mention]) -> str:
+    """Return a text with blanks in the place of mentions."""
+    for mention in mentions:
+        text = text[: mention.start] + " " * (mention.end - mention.start) + text[mention.end :]
+    return text
 
 
 def _without_listener(text: str) -> str:

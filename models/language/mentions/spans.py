@@ -11,6 +11,7 @@ from rapidfuzz import process
 from rapidfuzz.distance import OSA
 
 from models.language.measures import find_measures
+from models.language.mentions.abbreviations import WORDS as STREET_WORDS
 from models.language.mentions.languages import ENGLISH
 from models.language.mentions.lookup import EMPTY, Lookup, Match
 from models.language.mentions.names import ORDINAL, Word, split_words
@@ -94,7 +95,8 @@ def _at_start(word: Word, before: Word | None, text: str, lookup: Lookup) -> Wor
 
 def _ends(word: Word, after: str) -> bool:
     """Return whether a name ends after a word: at punctuation, except the dot of "St." and "Dr."."""
-    return _PAUSE.search(after.replace(".", "", 1) if word.plain in _ABBREVIATED else after) is not None
+    is_abbreviated = word.plain in _ABBREVIATED or word.plain in STREET_WORDS
+    return _PAUSE.search(after.replace(".", "", 1) if is_abbreviated else after) is not None
 
 
 def _spans_at(

@@ -1,6 +1,5 @@
 """The addresses of a map as people write them: "350 W 42nd St", "Bulevardi 12 b"."""
 
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
@@ -9,12 +8,13 @@ import numpy as np
 
 from models.citymap.gazetteer.name_columns import GazetteerObject
 from models.citymap.points import Ints
+from models.language.mentions.abbreviations import written_out
+from models.language.mentions.house_numbers import match_number, number_alone, number_beside, plain_number
 from models.language.mentions.name_table import NUMBER_SEPARATOR
-from models.language.mentions.names import ORDINAL, plain_words
+from models.language.mentions.names import Word, split_words
 from models.posterior.places.name_index import NameIndex
 from models.strings import Column, Postings, StringArray
 
-_NUMBER: Final = re.compile(r"\d+")
 _NONE: Final = np.zeros(0, np.int64)
 
 
@@ -74,45 +74,28 @@ class Addresses:
 
         A number that a street lacks means its nearest numbers on the same side; none past the end of the street.
         """
-        words, columns = plain_words(address), list[int]()
-        for n, number in enumerate(words):
-            if not number[0].isdecimal() or ORDINAL.fullmatch(number):
-                continue
-            before, behind = words[:n], words[n + 1 :]
-            streets = self._street(behind)
-            if not streets and behind and len(behind[0]) == 1 and behind[0].isalpha():
-                number, behind = number + behind[0], behind[1:]  # noqa: PLW2901  # "12 b" is one number
-                streets = self._street(behind)
-            if not before and not behind:
-                return self.by_number.find(number)
-            for street in streets or self._street(before):
-                numbers = {
-                    known: int(rows[0]) for known, rows in self.by_street.with_prefix(f"{street}{NUMBER_SEPARATOR}")
-                }
-                columns.extend([numbers[number]] if number in numbers else _nearest_numbers(number, numbers))
-            if columns:
-                return np.array(columns)
+        alone = number_alone(address)
+        if alone is not None:
+            return self.by_number.find(plain_number(alone))
+        words = split_words(address)
+        for count in range(len(words), 0, -1):
+            for first in range(len(words) - count + 1):
+                part = words[first : first + count]
+                number = number_beside(address, part[0].start, part[-1].end)
+                columns = self._columns(number.number, part) if number is not None else []
+                if columns:
+                    return np.array(columns)
         return _NONE
 
-    def _street(self, words: tuple[str, ...]) -> list[int]:
-        """Return the streets of the longest prefix that names any; a town or a flat may follow."""
-        for end in range(len(words), 0, -1):
-            if len(streets := self.streets.find(" ".join(words[:end]))):
-                return [int(street) for street in streets]
-        return []
-
-
-def _nearest_numbers(number: str, numbers: Mapping[str, int]) -> list[int]:
-    """Return the columns of the nearest numbers on the same side; none past the end."""
-    wanted = _digits(number)
-    side = [(_digits(known), column) for known, column in numbers.items()]
-    below = [value for value, _ in side if 0 <= value <= wanted and value % 2 == wanted % 2]
-    above = [value for value, _ in side if value >= wanted and value % 2 == wanted % 2]
-    nearest = {max(below), min(above)} if below and above else set[int]()
-    return [column for value, column in side if value in nearest]
-
-
-def _digits(number: str) -> int:
-    """Return the leading digits of a house number; -1 without any."""
-    digits = _NUMBER.match(number)
-    return int(digits.group()) if digits else -1
+    def _columns(self, number: str, street: Sequence[Word]) -> list[int]:
+        """Return the columns of a number in the streets of a name."""
+        name, columns = tuple(word.plain for word in street), list[int]()
+        readings = (" ".join(words) for words in (name, *written_out(name)))
+        rows = next((rows for reading in readings if len(rows := self.streets.find(reading))), _NONE)
+        for row in rows.tolist():
+            known = {one: int(n[0]) for one, n in self.by_street.with_prefix(f"{row}{NUMBER_SEPARATOR}")}
+            match = match_number(number, known)
+            if match is not None:
+                neighbours = (one for _, numbers in match.between for one in numbers)
+                columns += [known[one] for one in (*match.numbers, *neighbours)]
+        return columns

@@ -31,6 +31,7 @@ GRID_ERROR_M: Final = 5.0  # by which a distance on the grid may be too long
 MIN_KERNEL_MEAN: Final = 1e-6
 MIN_KERNEL_MAX: Final = 0.02  # a mention that fits nowhere better is not near the map
 DENIED_SHARE: Final = 0.9  # by which a place is less likely at what a text says is not there
+CODE_FLOOR: Final = 0.01  # probability that coordinates or another code are no evidence: they are seldom chance
 CACHED_MENTIONS: Final = 32  # those of one text
 HEADINGS_RAD: Final = np.arange(HEADINGS) * (2 * pi / HEADINGS)
 TIERS: Final = (1.0, 0.7, 0.4, 0.2)  # weights on the grid are rounded to these
@@ -243,6 +244,8 @@ class PlaceField:
 
     def _floor(self, mention: Mention) -> Tensor:
         """Return the probability that a mention is no evidence."""
+        if mention.form == "point":
+            return torch.tensor(CODE_FLOOR)
         return 1 - (1 - self.kernels.floor[FLOOR_NAMES.index(floor_name(mention))].sigmoid()) * mention.trust
 
     def from_listener(self, placed: PlacedMentions, points_m: Floats) -> Tensor:

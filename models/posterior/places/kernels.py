@@ -82,8 +82,10 @@ def kernel_of(mention: Mention, angle: float | None) -> int:
         return TYPES.index("street near" if loose or angle is not None else "street")
     if mention.form == "corner":
         return TYPES.index("corner near" if relation in ("near", "far", "past", "off", "block", "wind") else "corner")
-    if mention.form in ("span", "address"):
-        return TYPES.index(mention.form)
+    if mention.form in ("address", "point"):
+        return TYPES.index("across" if relation == "across" else "address")
+    if mention.form == "span":
+        return TYPES.index("span")
     if relation == "seen" and angle is not None:
         off = abs(angle)
         return TYPES.index("ahead" if off < MAX_AHEAD_DEG else "behind" if off > 180.0 - MAX_AHEAD_DEG else "side")
@@ -94,7 +96,7 @@ def floor_name(mention: Mention) -> str:
     """Return the row name of FLOORS for a mention."""
     if mention.form == "street":
         return "street"
-    if mention.form in ("corner", "span", "address"):
+    if mention.form in ("corner", "span", "address", "point"):
         return "corner"
     if mention.kinds and not mention.is_exact and mention.trust == 1.0:
         return "kind"

@@ -26,6 +26,7 @@ from models.citymap.gazetteer.streets import StreetPiece, StreetPieces, join_str
 from models.citymap.kinds.vocabulary import Vocabulary, load_vocabulary
 from models.citymap.types import Floats
 from models.sources.extras.layer import ExtraLayer
+from models.sources.osm.addresses import read_address, read_codes, read_streets, with_street
 from models.sources.osm.extent import MAX_SIDE_KM
 from models.sources.osm.incomplete import IncompleteAreas, known_line
 from models.sources.osm.ordering import ordered_file
@@ -60,6 +61,7 @@ WALKED_HIGHWAYS = frozenset(
 PLACES_WITH_OUTLINE = frozenset(("square", "city_block", "islet", "plot"))  # values of "place"
 CUT_REASON = "a part is not in the file"
 SIMPLIFY_TOLERANCE_M = 0.5  # greatest distance of a geometry from the mapped one
+ROAD_REF_HIGHWAYS = frozenset(("motorway", "trunk", "primary", "secondary"))  # known by their reference if unnamed
 MAX_NAMES = 12  # of an object; some have a name in each of a hundred languages
 _WALKED_OBJECT = GazetteerObject((WALKED_KIND,))
 _LANGUAGE = re.compile(r"(?:alt_|official_|short_|old_)?name:[a-z]{2,3}(?:[-_][A-Za-z]+)?")
@@ -108,15 +110,15 @@ def _read_batches(path: Path, counts: ReadingCounts) -> Iterator[list[_OsmObject
 
 
 def _read(processor: Any, path: Path, vocabulary: Vocabulary, counts: ReadingCounts) -> Iterator[_OsmObject]:
-    create, incomplete = geometry_factories(), IncompleteAreas()
+    create, incomplete, streets = geometry_factories(), IncompleteAreas(), read_streets(path)
     for element in processor:
         form = element.type_str()
         if not element.tags:
             continue
-        tags = read_tags(element.tags)
+        tags = with_street(read_tags(element.tags), source_id(element, form), streets)
         if form == "w" and tags.get("highway") in WALKED_HIGHWAYS and tags.get("indoor") != "yes":
             yield from _with_geometry(element, create, "w", _WALKED_OBJECT)
-        is_street = form == "w" and "highway" in tags and tags["highway"] not in NON_STREET_HIGHWAYS and _has_name(tags)
+        is_street = form == "w" and _is_street(tags)
         if form == "a":
             incomplete.note_area(element)
         if form == "r" or (form == "w" and element.is_closed() and not _is_line(tags)):
@@ -208,6 +210,13 @@ def _is_region(tags: dict[str, str]) -> bool:
     return "boundary" in tags or tags.get("place", "square") not in PLACES_WITH_OUTLINE
 
 
+def _is_street(tags: dict[str, str]) -> bool:
+    highway = tags.get("highway")
+    if highway in ROAD_REF_HIGHWAYS and "ref" in tags:
+        return True
+    return highway is not None and highway not in NON_STREET_HIGHWAYS and _has_name(tags)
+
+
 def _has_name(tags: dict[str, str]) -> bool:
     return any(key in tags for key in NAME_KEYS if key != "brand")
 
@@ -218,7 +227,8 @@ def _is_line(tags: dict[str, str]) -> bool:
 
 
 def _street_object(tags: dict[str, str], element: Any) -> GazetteerObject:
-    return GazetteerObject((STREET_KIND,), _names(tags), source_id=source_id(element, "w"))
+    names = _names(tags) or tuple(part.strip() for part in tags["ref"].split(";"))
+    return GazetteerObject((STREET_KIND,), names, source_id=source_id(element, "w"), codes=read_codes(tags))
 
 
 def _object(
@@ -238,14 +248,14 @@ def _object(
     ):
         return None
     kinds, names = (own_kind,) if own_kind else vocabulary.kinds_of(tags), _names(tags)
-    number, street = tags.get("addr:housenumber"), tags.get("addr:street") or tags.get("addr:place")
+    number, street = read_address(tags)
     if not kinds and number and street:
         kinds = (ADDRESS_KIND,)
     if not kinds and not (names and not {"type", "route", "boundary", "addr:interpolation"} & tags.keys()):
         return None
     if kinds == ("building",) and not names and not number:
         return None  # an ordinary house; the cells have it
-    return GazetteerObject(kinds, names, number, street, source_id)
+    return GazetteerObject(kinds, names, number, street, source_id, read_codes(tags))
 
 
 def _names(tags: dict[str, str]) -> tuple[str, ...]:

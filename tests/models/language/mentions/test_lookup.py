@@ -127,29 +127,27 @@ def test_rare_words_are_worth_more_than_common_ones(lookup) -> None:
 
 @pytest.mark.parametrize("number", NUMBERS)
 def test_a_house_number_is_its_object(town, lookup, number) -> None:
-    objects, lines = lookup.address(number, lookup.street(("25th",)).objects)
-    assert objects.tolist() == [numbered(town, number)]
-    assert not len(lines)
+    address = lookup.address(number, lookup.street(("25th",)).objects)
+    assert address.objects.tolist() == [numbered(town, number)]
+    assert not len(address.lines_m)
 
 
 @pytest.mark.parametrize(
     ("number", "start"), [("430", (300, 95)), ("420", (325, 95)), ("425", (320, 65)), ("430b", (300, 95))]
 )
 def test_a_number_between_others_lies_between_them_on_its_side(lookup, number, start) -> None:
-    objects, lines = lookup.address(number, lookup.street(("25th",)).objects)
-    assert not len(objects)
-    assert lines == pytest.approx(np.array([[*start, *start]]))
+    address = lookup.address(number, lookup.street(("25th",)).objects)
+    assert not len(address.objects)
+    assert address.lines_m == pytest.approx(np.array([[*start, *start]]))
 
 
 @pytest.mark.parametrize("number", ["2", "900", "399", "451", "99999"])
 def test_a_number_past_the_end_of_the_street_is_nowhere(lookup, number) -> None:
-    objects, lines = lookup.address(number, lookup.street(("25th",)).objects)
-    assert not len(objects)
-    assert not len(lines)
+    assert lookup.address(number, lookup.street(("25th",)).objects) is None
 
 
 def test_a_street_without_numbers(lookup) -> None:
-    assert [len(subset) for subset in lookup.address("430", lookup.street(("24th",)).objects)] == [0, 0]
+    assert lookup.address("430", lookup.street(("24th",)).objects) is None
 
 
 def numbers(*given: str) -> Lookup:
@@ -163,12 +161,18 @@ def numbers(*given: str) -> Lookup:
 def test_several_numbers_of_one_house() -> None:
     lookup = numbers("2;4", "6, 8A")
     street = np.array([2])
-    assert [lookup.address(n, street)[0].tolist() for n in ("2", "4", "6", "8a", "8A")] == [[0], [0], [1], [1], [1]]
+    assert [lookup.address(n, street).objects.tolist() for n in ("2", "4", "6", "8a", "8A")] == [
+        [0],
+        [0],
+        [1],
+        [1],
+        [1],
+    ]
 
 
 def test_odd_house_numbers_of_the_map_do_no_harm() -> None:
     lookup = numbers("2", "5²", "12-14", "½", "x", "", "10")
-    assert lookup.address("6", np.array([7]))[1] == pytest.approx(np.array([[30, 0, 30, 0]]))
+    assert lookup.address("6", np.array([7])).lines_m == pytest.approx(np.array([[30, 0, 30, 0]]))
 
 
 def test_a_map_without_names_knows_kinds_alone() -> None:

@@ -1,0 +1,1 @@
+"""Codes in a text: coordinates, links of maps, plus codes, references of stops, exits and roads, postcodes."""
