@@ -22,7 +22,7 @@ RADIUS_MASSES: Final = (0.5, 0.9)  # the probabilities that the radii of an answ
 class PositionDistribution:
     """A distribution over positions, by K candidate cells and by M points."""
 
-    rows: Ints  # [K] cells, likeliest first
+    rows: Ints  # [K] cells, that of the estimate first, then by probability
     score: Floats  # [K] their ranking scores
     probability: Floats  # [K] of the part of the map that each cell owns
     other: float  # probability of all other cells

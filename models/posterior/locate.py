@@ -11,6 +11,7 @@ from models.citymap.types import Floats
 from models.compiled import compiled
 from models.posterior.area_filter import AreaFilter
 from models.posterior.distribution import PositionDistribution, heaviest
+from models.posterior.modes import likeliest_cell
 from models.posterior.neighbours.nodes import SPACING_M
 from models.posterior.posterior import CANDIDATE_CELLS, Field, HintPosterior, PositionEvidence
 
@@ -34,7 +35,9 @@ def locate(
     candidates: int = CANDIDATE_CELLS,
     proposed: Ints | None = None,
 ) -> PositionDistribution | None:
-    """Return the distribution over positions; None if the area contains no node.
+    """Return the distribution over positions, whose first cell is the best of the likeliest place.
+
+    None if the area contains no node.
 
     Args:
         posterior: of the gallery.
@@ -66,12 +69,17 @@ def locate(
     weight = np.exp(field.log_p - total)
     nodes_m = posterior.surroundings.positions_m(field.nodes)
     radius_m = PEAK_RADIUS_M if evidence.places is None else PLACE_PEAK_RADIUS_M
+    positions = _positions(field, nodes_m, weight, order, posterior.cells, radius_m)
+    best = 0 if evidence.places is None else likeliest_cell(positions, np.exp(mass[order] - total))
+    if best > 0:
+        order = np.concatenate([order[[best]], np.delete(order, best)])
+        positions = _positions(field, nodes_m, weight, order, posterior.cells, radius_m)
     return PositionDistribution(
         rows=chosen[order],
         score=mass[order],
         probability=np.exp(mass[order] - total),
         other=float(np.exp(rest - total)),
-        positions=_positions(field, nodes_m, weight, order, posterior.cells, radius_m),
+        positions=positions,
         points_m=nodes_m,
         points=field.nodes,
         weight=weight,

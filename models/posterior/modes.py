@@ -60,7 +60,7 @@ def _divide(positions_m: Floats, probability: Floats) -> tuple[Floats, Ints, Flo
     """Return the peaks [n, 2] of cells, the nearest peak [K] of each cell, and the mass [n] of each peak's cells."""
     peaks_m = positions_m[_peaks(positions_m, probability, PEAK_RADIUS_M, MIN_SEPARATION_M)]
     mode_of_cell = _nearest(positions_m, peaks_m)
-    return peaks_m, mode_of_cell, np.bincount(mode_of_cell, probability, len(peaks_m))
+    return peaks_m, mode_of_cell, np.bincount(mode_of_cell, probability, len(peaks_m)).astype(np.float64)
 
 
 def _radius_m(points_m: Floats, weight: Floats, center_m: Floats) -> float:

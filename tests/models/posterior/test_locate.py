@@ -57,6 +57,16 @@ def test_near_distances_are_right_on_a_map_of_many_kilometres() -> None:
     assert located.positions[3] - far == pytest.approx(alone.positions[1], abs=0.002)
 
 
+def test_the_first_cell_belongs_to_the_likeliest_place() -> None:
+    nodes_m = np.array([[0.0, 0], [200, 0], [210, 0], [220, 0], [0, 300]])
+    evidence = PositionEvidence(places=SimpleNamespace(cell_log_p=np.zeros(5)))
+    located = locate(posterior_of(nodes_m, np.log([0.3, 0.2, 0.25, 0.2, 0.05]), [0, 1, 2, 3, 4, 5]), evidence)
+    assert located is not None
+    assert located.rows.tolist()[:2] == [2, 0], "the likeliest cell stands alone"
+    assert [mode.probability for mode in located.modes] == pytest.approx([0.65, 0.3, 0.05])
+    assert located.modes[0].position_m == pytest.approx(located.positions[0])
+
+
 def test_a_cell_that_a_prior_rules_out_has_no_mass_and_spoils_no_other() -> None:
     nodes_m = np.array([[0.0, 0], [1, 0], [30, 0], [31, 0], [60, 0]])
     posterior = posterior_of(nodes_m, np.array([0.0, 0.0, 0.0, 0.0, -1.0]), [0, 2, 4, 4, 5])
