@@ -1,36 +1,27 @@
-"""Abbreviated names of streets in the languages of cities: "Unionink.", "Moda Cad.", "ул. Покровка", "R. do Loureiro"."""
+"""Abbreviated names of streets in the languages of cities: "Unionink.", "Moda Cad.", "R. do Loureiro"."""
 
 from collections.abc import Iterator, Sequence
 from itertools import islice, product
+from pathlib import Path
 from typing import Final
 
 from models.language.mentions.names import plain_word
+from models.language.mentions.word_lists import WordLists
 
 MAX_READINGS: Final = 64  # of one name
 MIN_STEM: Final = 3  # letters of a name before an abbreviated ending
 
-# After libpostal's dictionaries. Words without accents, as `plain_word` writes them.
-WORDS: Final = {
-    plain_word(short): tuple(plain_word(word) for word in full.split())
-    for short, full in {
-        "k": "katu kuja", "t": "tie", "g": "gatan gasse", "v": "vägen via", "esplan": "esplanadi", "espl": "esplanadi",
-        "p": "pohjois", "e": "etelä", "it": "itäinen", "l": "läntinen largo", "n": "norra", "s": "södra",
-        "str": "straße strasse", "pl": "platz place plac plaza", "cad": "caddesi", "cd": "caddesi",
-        "sok": "sokak sokağı", "sk": "sokak sokağı", "bulv": "bulvarı", "blv": "bulvarı", "meyd": "meydanı",
-        "ul": "ulica", "al": "aleja aleje", "av": "avenida avenue", "ave": "avenida avenue", "avda": "avenida",
-        "bd": "boulevard", "bld": "boulevard", "bvd": "boulevard", "boul": "boulevard", "r": "rue rua",
-        "imp": "impasse", "crs": "cours", "fbg": "faubourg", "fg": "faubourg", "ch": "chemin", "pass": "passage",
-        "tv": "travessa", "trav": "travessa", "pc": "praça", "pr": "praça", "pca": "praça", "lg": "largo",
-        "c": "calle", "cl": "calle", "cra": "carrera", "kr": "carrera", "ул": "улица",
-        "пер": "переулок", "пр": "проспект проезд", "просп": "проспект", "пл": "площадь", "наб": "набережная",
-        "бул": "бульвар", "đ": "đường", "st": "saint sankt", "ste": "sainte", "dr": "doktor", "gen": "generała",
-    }.items()
-}  # fmt: skip
-ENDINGS: Final = {
-    "k": ("katu", "kuja", "kaari"), "t": ("tie",), "g": ("gatan", "gasse"), "v": ("vagen",), "r": ("ranta",),
-    "str": ("straße", "strasse"), "pl": ("platz",), "gt": ("gate", "gata"), "tr": ("tori",), "esplan": ("esplanadi",),
-}  # fmt: skip
-_OPTIONAL: Final = frozenset(("ul", "улица", "ул", "ulica"))  # maps leave them out, or write them last
+_LISTS: Final = WordLists(Path(__file__).parent / "abbreviations.toml")
+
+
+def _table(name: str) -> dict[str, tuple[str, ...]]:
+    table = _LISTS.table(name)
+    return {plain_word(short): tuple(plain_word(word) for word in full.split()) for short, full in table.items()}
+
+
+WORDS: Final = _table("words")
+ENDINGS: Final = _table("endings")
+_OPTIONAL: Final = frozenset(_table("optional")["words"])
 
 
 def written_out(words: Sequence[str]) -> Iterator[tuple[str, ...]]:

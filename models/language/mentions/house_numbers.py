@@ -1,4 +1,4 @@
-"""House numbers as people write them and as maps have them: "46" of "46-48", "52 B" or "52B", "3 B 14", "14/2 с1"."""
+"""House numbers as people write them and as maps have them: "46" of "46-48", "52 B" or "52B", "3 B 14"."""
 
 import re
 from collections.abc import Iterable, Sequence

@@ -2,7 +2,7 @@
 
 import re
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import osmium
 
@@ -21,7 +21,8 @@ _REF_KEY: Final = re.compile(r"ref|local_ref|ref:\w+|gtfs_(?:id|stop_code)|gtfs:
 def read_streets(path: Path) -> dict[str, str]:
     """Return the street of each house ("node/1") that has it from a relation, as most houses of France."""
     streets = dict[str, str]()
-    for relation in osmium.FileProcessor(str(path), osmium.osm.RELATION):
+    relations: Any = osmium.FileProcessor(str(path), osmium.osm.RELATION)
+    for relation in relations:
         name = relation.tags.get("name")
         if relation.tags.get("type") in STREET_RELATIONS and name:
             houses = (member for member in relation.members if member.role in ("house", "address"))

@@ -20,7 +20,6 @@ def posterior_of(nodes_m: np.ndarray, log_p: np.ndarray, starts: list[int], coar
     is_coarse = np.isin(np.arange(len(log_p)), np.arange(len(log_p)) if coarse is None else coarse)
 
     def field(evidence, cells, coarsening=None, *, is_rest=False):
-        assert evidence.places is None
         chosen = np.ones(len(log_p), np.bool_)
         if coarsening is not None:
             grids.append(dict(zip(cells.tolist(), coarsening.tolist(), strict=True)))

@@ -32,11 +32,12 @@ _PLUS_CODE = re.compile(
     r"(?<![\w+])(?=[^+\s]{4,8}\+)[23456789CFGHJMPQRVWX0]{4,8}\+[23456789CFGHJMPQRVWX]{0,7}(?!\w)", re.I
 )
 _THREE_WORDS = re.compile(
-    rf"///\s?\w+\.\w+\.\w+|(?<=\b)(?:{_W.text('undecodable', 'three_words')})[ :]+(?:is |are |at )?(?://)?/?\w+[. ]\w+[. ]\w+\b",
+    rf"///\s?\w+\.\w+\.\w+|(?<=\b)(?:{_W.text('undecodable', 'three_words')})[ :]+(?:is |are |at )?"
+    r"(?://)?/?\w+[. ]\w+[. ]\w+\b",
     re.IGNORECASE,
 )
 _MAPS = _W.pattern("undecodable", "maps")
-_REF = r"(?P<ref>(?-i:[A-ZА-Я]{0,6})[ -]?\d{1,6}(?-i:[A-Z])?|(?-i:[A-ZА-Я])\d?)(?![\w]|[.,:]\d)"
+_REF = r"(?P<ref>(?-i:[A-ZА-Я]{0,6})[ -]?\d{1,6}(?-i:[A-Z])?|(?-i:[A-ZА-Я])\d?)(?![\w]|[.,:]\d)"  # noqa: RUF001
 _NUMBER = rf"[ ,:]*(?:{_W.text('refs', 'number')}[ :]*)?"
 _WITH_WORD: Final = tuple(
     (kind, form)
@@ -55,7 +56,7 @@ _POSTCODE_WORD = _W.pattern("refs", "postcode", r"\b(?:{})[ :]*$")
 _POSTCODE = re.compile(
     r"(?<![\w.-])(?:[A-Z]{1,3}-)?(?P<ref>\d{3,6}(?:[ -]\d{2,4})?|[A-Z]{1,2}\d[A-Z\d]? ?\d[A-Z]{2})(?![\w-]|\.\d)"
 )
-_NAMES_ONLY = re.compile(r"[\s,.;:]*(?:[^\W\d_a-z][\w'’.-]*[\s,.;:]*){0,4}")
+_NAMES_ONLY = re.compile(r"[\s,.;:]*(?:[^\W\d_a-z][\w'’.-]*[\s,.;:]*){0,4}")  # noqa: RUF001
 
 
 _DIGITS = re.compile(r"\d+[a-z]?")
@@ -168,7 +169,7 @@ class CodeReader:
                 objects = self._coded(kind, plain_code(match["ref"]))
                 words = match[0], match.start(), match.end()
                 if len(objects):
-                    shape = "street" if kind == "road" else "thing"
+                    shape: MentionForm = "street" if kind == "road" else "thing"
                     yield Mention(*words, shape, objects, np.ones(len(objects)), NO_LINES, 1.0, is_exact=True)
                 elif is_word_first and kind != "road" and len(plain_code(match["ref"])) >= _MIN_STRONG:
                     yield Mention(*words, "unknown")
