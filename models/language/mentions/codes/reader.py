@@ -17,7 +17,7 @@ from models.citymap.types import Floats
 from models.language.measures import CharacterSpan, Measure, find_measures
 from models.language.mentions.codes.coordinates import CodedBox, find_coordinates, find_links
 from models.language.mentions.lookup import NO_LINES, Lookup
-from models.language.mentions.mentions import NO_OBJECTS, Mention
+from models.language.mentions.mentions import NO_OBJECTS, Mention, MentionForm
 from models.language.mentions.word_lists import WordLists
 
 MARGIN_M: Final = 100.0  # around the cells, where a code is still on the map
