@@ -760,8 +760,15 @@ export interface components {
             ];
             radius_m: components["schemas"]["Radius"];
             /**
+             * Within M
+             * @description calibrated probabilities that the speaker is within 10, 30, 100 and 250 m of `position`
+             */
+            within_m: {
+                [key: string]: number;
+            };
+            /**
              * Probability
-             * @description probability that the best candidate is the right cell
+             * @description probability that the best candidate is the right cell; small cells make it small
              */
             probability: number;
             /** @description null if the map has no georeference */
@@ -1354,8 +1361,16 @@ export interface components {
             within?: components["schemas"]["Within"] | null;
             prior?: components["schemas"]["PriorPosition"] | null;
             /**
+             * Listener
+             * @description position of whom the description guides to a meeting point, [x, y] or [lon, lat]: 'north of you' is then from there; give a prior as well if the meeting point is near
+             */
+            listener?: [
+                number,
+                number
+            ] | null;
+            /**
              * Crs
-             * @description the reference system of within and prior: metres of the map, or longitude and latitude
+             * @description the reference system of within, prior and listener: metres of the map, or longitude and latitude
              * @default map
              * @enum {string}
              */
