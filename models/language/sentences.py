@@ -28,6 +28,17 @@ def split_hints(description: str) -> tuple[str, ...]:
     return hints
 
 
+def without_repetition(description: str) -> str:
+    """Return a description that is one passage said several times as that passage; any other as it is."""
+    ends = [match.end() for match in _BREAK.finditer(description)]
+    sentences = [" ".join(part.lower().split()) for part in _BREAK.split(description) if _HAS_WORD.search(part)]
+    count = len(sentences)
+    for length in range(1, count // 2 + 1):
+        if count % length == 0 and sentences == sentences[:length] * (count // length):
+            return description[: ends[length - 1]].rstrip()
+    return description
+
+
 def locate_spans(description: str, text: str, spans: Sequence[tuple[int, int]]) -> list[tuple[int, int] | None]:
     """Locate spans of the reader's text in the original description; None for a span that is not there.
 

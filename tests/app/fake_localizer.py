@@ -99,7 +99,15 @@ class FakeLocalizer:
             for rank, p in ((1, probability), (2, 0.3))
         )[: query.top_k]
         covariance = ((100.0, 0.0), (0.0, 100.0))
-        estimate = Estimate((0.0, 0.0), "cell_center", covariance, Radius(12.0, 21.0), probability, self._wgs84())
+        estimate = Estimate(
+            (0.0, 0.0),
+            "cell_center",
+            covariance,
+            Radius(12.0, 21.0),
+            {10: 0.4, 30: 0.9, 100: 0.95, 250: 0.98},
+            probability,
+            self._wgs84(),
+        )
         places = tuple(
             LikelyPlace(p, (x, 0.0), self._wgs84(), 15.0, None, ("tree: 3 m to the east",))
             for x, p in ((0.0, 0.8), (90.0, 0.1))

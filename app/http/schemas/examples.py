@@ -27,6 +27,7 @@ ANSWERED: JsonValue = {
         "method": "posterior",
         "covariance": [[1444.0, 0.0], [0.0, 1444.0]],
         "radius_m": {"p50": 44.1, "p90": 81.8},
+        "within_m": {"10": 0.11, "30": 0.35, "100": 0.93, "250": 0.97},
         "probability": 0.22,
         "wgs84": {"lat": 60.1699, "lon": 24.9384},
         "place": "on Kaivokatu, between Keskuskatu and Mikonkatu, 14 m south of Ateneum",

@@ -8,7 +8,7 @@ from fake_localizer import FakeLocalizer
 from app.http.schemas.ros import UNKNOWN_RAD2, to_ros_pose
 from index.answering.answers import Estimate, Heading, Radius
 
-ESTIMATE = Estimate((3.0, -4.0), "posterior", ((9.0, 2.0), (2.0, 4.0)), Radius(2.0, 4.0), 0.5, None)
+ESTIMATE = Estimate((3.0, -4.0), "posterior", ((9.0, 2.0), (2.0, 4.0)), Radius(2.0, 4.0), {}, 0.5, None)
 
 
 @pytest.mark.parametrize(

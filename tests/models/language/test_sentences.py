@@ -5,7 +5,7 @@ import pytest
 from models.citymap.templates import ON_TOP_TEMPLATES, TEMPLATES, parse_hint, render_hint
 from models.citymap.types import DIRECTIONS, Hint
 from models.errors import DescriptionError
-from models.language.sentences import locate_spans, split_for_reader, split_hints
+from models.language.sentences import locate_spans, split_for_reader, split_hints, without_repetition
 
 
 @pytest.mark.parametrize(
@@ -101,3 +101,10 @@ def test_a_list_with_wide_bullets_does_not_lose_its_place() -> None:
     text = " ".join(split_for_reader(description, 800))
     result = locate_spans(description, text, [match.span() for match in re.finditer("tree", text)])
     assert result == [match.span() for match in re.finditer("tree", description)]
+
+
+@pytest.mark.parametrize("times", [1, 2, 5])
+@pytest.mark.parametrize("text", ["I'm at 5 Main St. A bank is on my left!", "near the bank.\nby a tree."])
+def test_a_text_said_several_times_is_said_once(text, times) -> None:
+    assert without_repetition(" ".join([text] * times)) == text
+    assert without_repetition(f"{text} {text} A pond.") == f"{text} {text} A pond."
