@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Sequence
+from itertools import pairwise
 
 from models.errors import DescriptionError
 
@@ -30,8 +31,10 @@ def split_hints(description: str) -> tuple[str, ...]:
 
 def without_repetition(description: str) -> str:
     """Return a description that is one passage said several times as that passage; any other as it is."""
-    ends = [match.end() for match in _BREAK.finditer(description)]
-    sentences = [" ".join(part.lower().split()) for part in _BREAK.split(description) if _HAS_WORD.search(part)]
+    breaks = [0, *(match.end() for match in _BREAK.finditer(description)), len(description)]
+    parts = [(end, description[start:end]) for start, end in pairwise(breaks)]
+    ends = [end for end, part in parts if _HAS_WORD.search(part)]
+    sentences = [" ".join(part.lower().split()) for _, part in parts if _HAS_WORD.search(part)]
     count = len(sentences)
     for length in range(1, count // 2 + 1):
         if count % length == 0 and sentences == sentences[:length] * (count // length):
