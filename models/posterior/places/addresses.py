@@ -85,7 +85,8 @@ class Addresses:
                 columns = self._columns(number.number, part) if number is not None else []
                 if columns:
                     return np.array(columns)
-        return _NONE
+        letters = address.casefold()  # the map may have what is no number
+        return np.array([n for n, shown in enumerate(self.shown[:]) if shown.casefold() == letters], np.int64)
 
     def _columns(self, number: str, street: Sequence[Word]) -> list[int]:
         """Return the columns of a number in the streets of a name."""
