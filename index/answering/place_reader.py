@@ -16,7 +16,7 @@ from models.citymap.frame import Frame
 from models.citymap.gazetteer.gazetteer import Gazetteer
 from models.citymap.kinds.vocabulary import load_vocabulary
 from models.citymap.types import Floats
-from models.language.measures import Measure, compass_name, distance_in_text
+from models.language.measures import compass_name, distance_in_text, overlaps
 from models.language.mentions.codes.reader import CodeReader
 from models.language.mentions.cue_reader import CueReader
 from models.language.mentions.languages import ENGLISH
@@ -98,17 +98,23 @@ class PlaceReader:
         self,
         mentions: Sequence[Mention],
         place_evidence: PlaceEvidence | None,
-        position: Floats,
+        positions_m: Floats,
         *,
         has_heading: bool = False,
-    ) -> tuple[Evidence, ...]:
-        """Return the evidence of each mention at a position [2]; with a heading in the text its words use one."""
-        known = place_evidence.placed.mentions if place_evidence is not None else ()
-        explained = self.field.explain(place_evidence.placed, position[None]) if place_evidence is not None else []
-        explanation_of = {id(mention): explanation for mention, explanation in zip(known, explained, strict=True)}
-        return tuple(
-            self._mention_evidence(m, explanation_of.get(id(m)), position, has_heading=has_heading) for m in mentions
-        )
+    ) -> list[tuple[Evidence, ...]]:
+        """Return the evidence of each mention at positions [M, 2]; with a heading in the text its words use one."""
+        known: tuple[Mention, ...] = ()
+        explained = [list[MentionExplanation]()] * len(positions_m)
+        if place_evidence is not None:
+            known = place_evidence.placed.mentions
+            explained = self.field.explain(place_evidence.placed, positions_m)
+        result = []
+        for position, explanations in zip(positions_m, explained, strict=True):
+            by = {id(mention): explanation for mention, explanation in zip(known, explanations, strict=True)}
+            result.append(
+                tuple(self._mention_evidence(m, by.get(id(m)), position, has_heading=has_heading) for m in mentions)
+            )
+        return result
 
     def _mention_evidence(
         self, mention: Mention, by: MentionExplanation | None, position: Floats, *, has_heading: bool
@@ -153,7 +159,7 @@ class PlaceReader:
 
 def possibly_near_hints(hints: Sequence[ParsedHint], mentions: Sequence[Mention]) -> list[ParsedHint]:
     """Return the hints that `near_hints` may keep."""
-    return [hint for hint in hints if all(_is_possibly_near(m) for m in mentions if _is_overlapping(m, hint))]
+    return [hint for hint in hints if all(_is_possibly_near(m) for m in mentions if overlaps(m, [hint]))]
 
 
 def near_hints(
@@ -167,7 +173,7 @@ def near_hints(
     near_rows: list[int] = []
     places = list(mentions)
     for n, hint in enumerate(hints):
-        over = [m for m in places if _is_overlapping(m, hint)]
+        over = [m for m in places if overlaps(m, [hint])]
         if over and all(_is_possibly_near(m) for m in over) and trust[n] >= MIN_CLASS_TRUST:
             places = [m for m in places if not any(m is other for other in over)]
             near_rows.append(n)
@@ -184,17 +190,13 @@ def with_one_owner(
     for m, mention in enumerate(mentions):
         measure = mention.cue.measure
         for n, hint in enumerate(hints):
-            if measure is None or hint.measure is None or not _is_overlapping(measure, hint.measure):
+            if measure is None or hint.measure is None or not overlaps(measure, [hint.measure]):
                 continue
             if distance_in_text(text, hint.measure, hint) < distance_in_text(text, measure, mention):
                 mentions[m] = replace(mention, cue=replace(mention.cue, measure=None))
                 break
             hints[n] = replace(hint, measure=None)
     return hints, mentions
-
-
-def _is_overlapping(one: Measure | Mention, other: Measure | ParsedHint) -> bool:
-    return one.start < other.end and other.start < one.end
 
 
 def _memory_bytes(mentions: Sequence[Mention]) -> int:

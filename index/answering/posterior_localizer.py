@@ -167,16 +167,16 @@ class PosteriorLocalizer:
         mentions: Sequence[Mention],
         place_evidence: PlaceEvidence | None,
     ) -> LocalizerResult:
-        heading = None if self.places is None else self.places.heading(place_evidence, located)
-        views = []
-        for mode in located.modes:
-            position, place = mode.position_m, None
-            evidence = self._evidence(hints, bound_hints, located, position) if bound_hints is not None else ()
-            if self.places is not None:
-                has_heading = heading is not None
-                evidence += self.places.evidence(mentions, place_evidence, position, has_heading=has_heading)
-                place = place_text(self._gazetteer, position)
-            views.append(PlaceView(place, evidence))
+        positions_m, heading = np.array([mode.position_m for mode in located.modes]), None
+        named: list[tuple[Evidence, ...]] = [()] * len(positions_m)
+        places: list[str | None] = [None] * len(positions_m)
+        if self.places is not None:
+            heading = self.places.heading(place_evidence, located)
+            has_heading = heading is not None
+            named = self.places.evidence(mentions, place_evidence, positions_m, has_heading=has_heading)
+            places = [place_text(self._gazetteer, position) for position in positions_m]
+        near = [() if bound_hints is None else self._evidence(hints, bound_hints, located, p) for p in positions_m]
+        views = [PlaceView(place, (*one, *other)) for place, one, other in zip(places, near, named, strict=True)]
         return LocalizerResult(located, views=tuple(views), heading=heading)
 
     def _read(

@@ -68,6 +68,19 @@ class CharacterSpan(Protocol):
     def end(self) -> int: ...  # noqa: D102
 
 
+@dataclass(frozen=True, slots=True)
+class TextSpan:
+    """A span of characters without a meaning yet."""
+
+    start: int
+    end: int
+
+
+def overlaps(one: CharacterSpan, others: Iterable[CharacterSpan]) -> bool:
+    """Return whether a span shares a character with any of the others."""
+    return any(one.start < other.end and other.start < one.end for other in others)
+
+
 Fact = TypeVar("Fact", Measure, Bearing)
 
 _WORDS = english()

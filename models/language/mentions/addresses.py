@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from models.citymap.points import Ints
-from models.language.measures import CharacterSpan, find_measures
+from models.language.measures import CharacterSpan, find_measures, overlaps
 from models.language.mentions.abbreviations import is_abbreviated
 from models.language.mentions.house_numbers import WrittenNumber, number_beside, numbers_apart
 from models.language.mentions.lookup import AddressMatch, Lookup
@@ -36,14 +36,14 @@ def add_addresses(mentions: Sequence[Mention], text: str, lookup: Lookup) -> lis
     result, measures = list[Mention](), find_measures(text)
     for mention in (_with_full_stop(mention, text) for mention in mentions):
         number = number_beside(text, mention.start, mention.end) if mention.form == "street" else None
-        if number is None or _overlaps(number, measures):
+        if number is None or overlaps(number, measures):
             result.append(mention)
         else:
             result += _address(text, mention, number, lookup)
     result += _addresses_apart(text, mentions, [*result, *measures], lookup)
     result += _addresses_of_places(text, result, lookup)
     addresses = [mention for mention in result if mention.form == "address"]
-    others = [mention for mention in result if mention in addresses or not _overlaps(mention, addresses)]
+    others = [mention for mention in result if mention in addresses or not overlaps(mention, addresses)]
     return sorted(_without_tails(others, text, lookup), key=lambda mention: mention.start)
 
 
@@ -88,7 +88,7 @@ def _addresses_apart(
     """Yield the addresses whose street is elsewhere in the text: "on East 28th, at the door of 331"."""
     streets = [mention for mention in mentions if mention.form == "street"]
     for number, is_marked in numbers_apart(text) if streets else ():
-        if _overlaps(number, taken):
+        if overlaps(number, taken):
             continue
         for street in sorted(
             streets, key=lambda street: (street.start > number.start, abs(street.start - number.start))
@@ -108,7 +108,7 @@ def _addresses_of_places(text: str, mentions: Sequence[Mention], lookup: Lookup)
             continue
         for last in reversed(range(first, min(first + MAX_PLACE_WORDS, len(words)))):
             address = _address_of_place(text, words[first : last + 1], lookup)
-            if address is not None and not _overlaps(address, taken):
+            if address is not None and not overlaps(address, taken):
                 end = address.end
                 yield address
                 break
@@ -147,7 +147,3 @@ def _without_tails(mentions: Iterable[Mention], text: str, lookup: Lookup) -> li
 def _is_city(objects: Ints, lookup: Lookup) -> bool:
     kinds = [lookup.gazetteer.objects[n].kinds for n in objects[:20].tolist()]
     return bool(kinds) and all(own and own[0].startswith(_PLACE_KIND) for own in kinds)
-
-
-def _overlaps(one: CharacterSpan, others: Iterable[CharacterSpan]) -> bool:
-    return any(one.start < other.end and other.start < one.end for other in others)

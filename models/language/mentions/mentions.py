@@ -18,6 +18,7 @@ from models.language.measures import (
     find_measures,
     first_bearing,
     match_facts_to_spans,
+    overlaps,
 )
 from models.language.mentions.cue_reader import CueReader, ReadCue
 from models.language.mentions.cues import NO_CUE, Cue
@@ -134,7 +135,7 @@ def _is_repeated(text: str, mention: Mention, before: Sequence[Mention]) -> bool
 
 def _without_overlaps(bearings: Sequence[Bearing], others: Sequence[CharacterSpan]) -> list[Bearing]:
     """Return the bearings that overlap none of the others."""
-    return [one for one in bearings if not any(one.start < other.end and other.start < one.end for other in others)]
+    return [one for one in bearings if not overlaps(one, others)]
 
 
 def _cue(text: str, mention: Mention, read: ReadCue, far: Measure | None, wind: Bearing | None) -> Cue:

@@ -127,26 +127,36 @@ class PlaceField:
         return total
 
     @torch.inference_mode()
-    def explain(self, placed: PlacedMentions, point_m: Floats) -> list[MentionExplanation]:
-        """Explain each mention at a position [1, 2], in the best heading there."""
-        around = PointGroups.from_groups(point_m, np.zeros(1, np.int64))
-        points = [self.closest_points(mention, around) for mention in placed.mentions]
-        fits = [self._object_fits(*pair) for pair in zip(placed.mentions, points, strict=True)]
-        total = torch.zeros(HEADINGS)
-        for mention, fit, mean in zip(placed.mentions, fits, placed.kernel_means, strict=True):
-            total = total + self.log_evidence(mention, fit.amax(dim=0) if len(fit) else torch.zeros(1), mean)
-        heading, explanations = int(total.argmax()), list[MentionExplanation]()
-        for mention, closest, fit, mean in zip(placed.mentions, points, fits, placed.kernel_means, strict=True):
-            if not len(fit):
-                explanations.append(UNEXPLAINED)
-                continue
-            best_fit = fit[:, heading if fit.shape[1] > 1 else 0]
-            best, floor = int(best_fit.argmax()), self._floor(mention)
-            ratio = (1 - floor) * best_fit[best] / mean
-            probability = float(ratio / (ratio + floor))
-            explanation = probability, int(closest.target[best]), closest.offset_m[best], degrees(HEADINGS_RAD[heading])
-            explanations.append(MentionExplanation(*explanation))
-        return explanations
+    def explain(self, placed: PlacedMentions, points_m: Floats) -> list[list[MentionExplanation]]:
+        """Explain each mention at positions [M, 2], in the best heading at each; M lists."""
+        count = len(points_m)
+        around = PointGroups.from_groups(points_m, np.arange(count))
+        closest = [self.closest_points(mention, around) for mention in placed.mentions]
+        fits = [self._object_fits(*pair) for pair in zip(placed.mentions, closest, strict=True)]
+        total = torch.zeros(count, HEADINGS)
+        for mention, near, fit, mean in zip(placed.mentions, closest, fits, placed.kernel_means, strict=True):
+            total = total + self.log_evidence(mention, _best_fits(fit, near, count), mean)
+        headings = total.argmax(dim=1).tolist()
+        return [
+            [
+                self._explanation(mention, near, fit, float(mean), point, heading)
+                for mention, near, fit, mean in zip(placed.mentions, closest, fits, placed.kernel_means, strict=True)
+            ]
+            for point, heading in enumerate(headings)
+        ]
+
+    def _explanation(
+        self, mention: Mention, closest: ClosestPoints, fits: Tensor, mean: float, point: int, heading: int
+    ) -> MentionExplanation:
+        rows = np.flatnonzero(closest.point == point)
+        if not len(rows):
+            return UNEXPLAINED
+        at_heading = fits[torch.from_numpy(rows), heading if fits.shape[1] > 1 else 0]
+        best, floor = int(at_heading.argmax()), float(self._floor(mention))
+        ratio = (1 - floor) * float(at_heading[best]) / mean
+        row, heading_deg = int(rows[best]), degrees(HEADINGS_RAD[heading])
+        probability = ratio / (ratio + floor)
+        return MentionExplanation(probability, int(closest.target[row]), closest.offset_m[row], heading_deg)
 
     def closest_points(self, mention: Mention, around: PointGroups) -> ClosestPoints:
         """Return the closest points of a mention's candidates to grouped positions."""
@@ -200,9 +210,7 @@ class PlaceField:
 
     def fits(self, mention: Mention, closest: ClosestPoints, points: int) -> Tensor:
         """Return the kernel [M, 1] or [M, HEADINGS] of the likeliest object at M positions; differentiable."""
-        fits = self._object_fits(mention, closest)
-        index = torch.from_numpy(closest.point)[:, None].expand_as(fits)
-        return torch.zeros(points, fits.shape[1]).scatter_reduce(0, index, fits, "amax")
+        return _best_fits(self._object_fits(mention, closest), closest, points)
 
     def _object_fits(self, mention: Mention, closest: ClosestPoints) -> Tensor:
         """Return the kernel [P, 1] or [P, HEADINGS] of each closest point, summed over the cue's possible angles."""
@@ -255,6 +263,12 @@ class PlaceField:
         metres, direction = _polar(points_m - placed.listener_m)
         cosine = direction @ _unit_vectors(radians(placed.listener_wind))
         return self.kernels.toward(self.kernels.listener, cosine, metres).log()
+
+
+def _best_fits(fits: Tensor, closest: ClosestPoints, points: int) -> Tensor:
+    """Return the highest of the kernels [P, H] of closest points at each of M positions, [M, H]; 0 without any."""
+    index = torch.from_numpy(closest.point)[:, None].expand_as(fits)
+    return torch.zeros(points, fits.shape[1]).scatter_reduce(0, index, fits, "amax")
 
 
 def _polar(offset_m: Floats) -> tuple[Tensor, Tensor]:

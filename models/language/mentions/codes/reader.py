@@ -1,7 +1,7 @@
 """Find the codes of a text, and what each stands for on a map."""
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from math import hypot
 from pathlib import Path
 from typing import Final
@@ -14,7 +14,7 @@ from models.citymap.frame import Frame
 from models.citymap.gazetteer.name_columns import plain_code
 from models.citymap.points import Ints, bounding_corners
 from models.citymap.types import Floats
-from models.language.measures import CharacterSpan, Measure, find_measures
+from models.language.measures import CharacterSpan, TextSpan, find_measures, overlaps
 from models.language.mentions.codes.coordinates import CodedBox, find_coordinates, find_links
 from models.language.mentions.lookup import NO_LINES, Lookup
 from models.language.mentions.mentions import NO_OBJECTS, Mention, MentionForm
@@ -73,7 +73,7 @@ class CodeReader:
         """Return the mentions of codes, without overlaps; their `note` says what cannot be decoded or used."""
         result = list[Mention]()
         for mention in (*self._undecodable(text), *self._places(text), *self._references(text)):
-            if not _overlaps(mention, result):
+            if not overlaps(mention, result):
                 result.append(mention)
         return sorted(result, key=lambda mention: mention.start)
 
@@ -85,7 +85,7 @@ class CodeReader:
             has_word = _POSTCODE_WORD.search(text[: match.start()]) is not None
             is_all = not text[: match.start()].strip() and _NAMES_ONLY.fullmatch(text, match.end()) is not None
             objects = self._lookup.coded("post", plain_code(match["ref"]))
-            if not (has_word or is_all) or _overlaps(_span(match), mentions):
+            if not (has_word or is_all) or overlaps(_span(match), mentions):
                 continue
             if len(objects) < MIN_POSTCODE_ADDRESSES:
                 if has_word:
@@ -164,7 +164,7 @@ class CodeReader:
         for n, (kind, form) in enumerate((*_WITH_WORD, *_BARE)):
             is_word_first = n < len(_WITH_WORD) and n % 2 == 0
             for match in form.finditer(text):
-                if _overlaps(_span(match), measures):
+                if overlaps(_span(match), measures):
                     continue
                 objects = self._coded(kind, plain_code(match["ref"]))
                 words = match[0], match.start(), match.end()
@@ -195,7 +195,7 @@ def _point(text: str, span: CharacterSpan, lines_m: Floats, note: str = "") -> M
 
 
 def _span(match: re.Match[str]) -> CharacterSpan:
-    return Measure(match.start(), match.end(), 0.0)
+    return TextSpan(*match.span())
 
 
 def _hatched(area: shapely.Geometry) -> Floats:
@@ -213,7 +213,3 @@ def _rounded(metres: float) -> str:
     if not np.isfinite(metres) or metres > 1e6:
         return "far"
     return f"{metres / 1000:.0f} km" if metres >= 1000 else f"{metres:.0f} m"
-
-
-def _overlaps(one: CharacterSpan, others: Iterable[CharacterSpan]) -> bool:
-    return any(one.start < other.end and other.start < one.end for other in others)

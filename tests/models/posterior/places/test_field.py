@@ -223,11 +223,11 @@ def test_a_mentionis_explained_by_what_is_near(field) -> None:
     mention = thing("Elmo", "Bottino", cue=Cue("beside"))
     placed = field.evidence([mention]).placed
     points_m = np.array([[215.0, 95.0]])
-    [explained] = field.explain(placed, points_m)
+    [[explained]] = field.explain(placed, points_m)
     assert explained.probability > 0.8
     assert explained.item == 1, "Bottino"
     assert explained.offset_m == pytest.approx([0, -3])
-    [nothing] = field.explain(placed, np.array([[3000.0, 95.0]]))
+    [[nothing]] = field.explain(placed, np.array([[3000.0, 95.0]]))
     assert (nothing.probability, nothing.item) == (0.0, -1)
 
 
