@@ -65,10 +65,9 @@ def calibrate_certainty(
 
 
 def read_city(localizer: Localizer, texts: Sequence[PlaceText], progress: Progress) -> CityTexts:
-    """Localize texts without calibration; those that name no place are left out."""
+    """Localize texts, without calibration; those that name no place are left out."""
     error_m, shares, facts = list[float](), list[Floats](), list[TextFacts]()
     evidence, is_right = list[Floats](), list[bool]()
-    localizer.posterior.weights.config = localizer.posterior.weights.config.model_copy(update={"certainty": None})
     for n, text in enumerate(texts):
         progress(localizer.manifest.map_name, n, len(texts))
         [result] = localizer.posterior.find([query_of(text)])

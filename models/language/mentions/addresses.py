@@ -7,7 +7,6 @@ from typing import Final
 
 import numpy as np
 
-from models.citymap.points import Ints
 from models.language.measures import CharacterSpan, find_measures, overlaps
 from models.language.mentions.abbreviations import is_abbreviated
 from models.language.mentions.house_numbers import WrittenNumber, number_beside, numbers_apart
@@ -16,7 +15,6 @@ from models.language.mentions.mentions import Mention
 from models.language.mentions.names import STREET_ABBREVIATIONS, Word, full_words, plain_words, split_words
 
 MAX_PLACE_WORDS: Final = 5  # of a place with house numbers that is no street
-_PLACE_KIND: Final = "place/"  # of cities and suburbs
 _CODE = r"(?:[A-Z]{1,3}-)?(?:\d{2,4}[ -]\d{2,4}|\d{4,6}|[A-Z]{1,2}\d[A-Z\d]? \d[A-Z]{2})(?!\w)"
 _NAME = r"[^\W\d_a-z][\w'’.-]*(?:[ -](?:(?:am|an|der|de|do|da|la|le|of|upon)[ -])?[^\W\d_a-z][\w'’.-]*){0,3}"  # noqa: RUF001
 # ", 00120 Helsinki, Finland"
@@ -44,7 +42,7 @@ def add_addresses(mentions: Sequence[Mention], text: str, lookup: Lookup) -> lis
     result += _addresses_of_places(text, result, lookup)
     addresses = [mention for mention in result if mention.form == "address"]
     others = [mention for mention in result if mention in addresses or not overlaps(mention, addresses)]
-    return sorted(_without_tails(others, text, lookup), key=lambda mention: mention.start)
+    return sorted(_without_tails(others, text), key=lambda mention: mention.start)
 
 
 def _with_full_stop(mention: Mention, text: str) -> Mention:
@@ -125,8 +123,8 @@ def _address_of_place(text: str, words: Sequence[Word], lookup: Lookup) -> Menti
     return _mention(text, min(words[0].start, number.start), max(words[-1].end, number.end), match)
 
 
-def _without_tails(mentions: Iterable[Mention], text: str, lookup: Lookup) -> list[Mention]:
-    """Leave out the city, postcode and country after an address."""
+def _without_tails(mentions: Iterable[Mention], text: str) -> list[Mention]:
+    """Leave out the city, postcode and country after an address; without a postcode, a whole name stays."""
     result = list(mentions)
     for address in [mention for mention in result if mention.form == "address"]:
         end, has_code = address.end, False
@@ -135,15 +133,9 @@ def _without_tails(mentions: Iterable[Mention], text: str, lookup: Lookup) -> li
             result = [
                 mention
                 for mention in result
-                if not (end <= mention.start and mention.end <= part.end())
-                or not (has_code or mention.form == "unknown" or _is_city(mention.objects, lookup))
+                if not (end <= mention.start and mention.end <= part.end()) or (mention.is_exact and not has_code)
             ]
             if part.end() == end:
                 break
             end = part.end()
     return result
-
-
-def _is_city(objects: Ints, lookup: Lookup) -> bool:
-    kinds = [lookup.gazetteer.objects[n].kinds for n in objects[:20].tolist()]
-    return bool(kinds) and all(own and own[0].startswith(_PLACE_KIND) for own in kinds)

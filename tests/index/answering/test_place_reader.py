@@ -247,3 +247,11 @@ def test_a_flat_prior_changes_nothing(localizer) -> None:
     assert biased.estimate.position == pytest.approx(plain.estimate.position, abs=1.0)
     assert biased.estimate.radius_m.p90 == pytest.approx(plain.estimate.radius_m.p90, rel=0.05)
     assert [item.relation for item in biased.evidence] == [item.relation for item in plain.evidence]
+
+
+def test_evidence_is_calibrated_by_how_sure_the_answer_is(localizer) -> None:
+    text = "I'm at East Street 2 and North Path 3"
+    [raw] = localizer.posterior.find([Query(text)])
+    shown = answer(localizer, text).evidence
+    before, after = ([item.explained for item in items] for items in (raw.views[0].evidence, shown))
+    assert all(0.5 < one < other < 1.0 for one, other in zip(after, before, strict=True))

@@ -9,8 +9,10 @@ STREET = "Bulevardi"
     ("text", "number"),
     [
         ("Bulevardi 12", "12"), ("12 Bulevardi", "12"), ("Bulevardi 12 B", "12 B"), ("Bulevardi 12B", "12B"),
-        ("Bulevardi 46-48", "46-48"), ("Bulevardi 3 B 14", "3 B"), ("number 27 on Bulevardi", "27"), ("no. 5, Bulevardi", "5"),
-        ("Bulevardi, number 9", "9"), ("Bulevardi 12, please", "12"), ("at 331 Bulevardi", "331"), ("Bulevardi #7", "7"),
+        ("Bulevardi 46-48", "46-48"), ("Bulevardi 3 B 14", "3 B"), ("number 27 on Bulevardi", "27"),
+        ("no. 5, Bulevardi", "5"),
+        ("Bulevardi, number 9", "9"), ("Bulevardi 12, please", "12"), ("at 331 Bulevardi", "331"),
+        ("Bulevardi #7", "7"),
     ],
 )  # fmt: skip
 def test_the_number_of_a_street(text, number) -> None:

@@ -110,6 +110,9 @@ def test_streets_written_out(phrase, full) -> None:
         ("West Street", {"west street"}),
         ("The High Line", {"high line"}),
         ("Madison Square", {"madison square", "madison", "mad"}),
+        ("Cours Émile Zola", {"cours emile zola", "emile zola", "zola"}),
+        ("Rue du Faubourg Poissonnière", {"rue du faubourg poissonniere", "faubourg poissonniere", "poissonniere"}),
+        ("Đường Nguyễn Văn Mai", {"duong nguyen van mai", "nguyen van mai"}),
         ("!!!", {""}),
     ],
 )

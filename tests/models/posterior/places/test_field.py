@@ -231,6 +231,31 @@ def test_a_mentionis_explained_by_what_is_near(field) -> None:
     assert (nothing.probability, nothing.item) == (0.0, -1)
 
 
+def test_what_is_denied_counts_against(field) -> None:
+    near, far = np.array([[120.0, 146.0], [350.0, 20.0]])
+    one, denied = thing("Rossi Bakery", cue=Cue("seen")), thing("Elmo", is_denied=True)
+    plain, without = (
+        field.evidence(mentions).log_p(np.array([near, far]), np.zeros(2, np.int64))
+        for mentions in ([one], [one, denied])
+    )
+    assert without[0] < plain[0] - 0.5
+    assert without[1] == pytest.approx(plain[1], abs=0.05)
+
+
+def test_positions_explained_together_are_explained_as_alone(field) -> None:
+    mentions = [thing("Elmo", "Bottino", cue=Cue("beside")), thing("Rossi Bakery", cue=Cue("seen", 90.0))]
+    placed = field.evidence(mentions).placed
+    points_m = np.array([[215.0, 95.0], [3000.0, 95.0], [118.0, 150.0], [60.0, 150.0]])
+    together = field.explain(placed, points_m)
+    for explanations, point_m in zip(together, points_m, strict=True):
+        [alone] = field.explain(placed, point_m[None])
+        for one, other in zip(explanations, alone, strict=True):
+            assert (one.item, one.heading_deg) == (other.item, other.heading_deg)
+            assert one.probability == pytest.approx(other.probability, rel=1e-5)
+            assert one.offset_m == pytest.approx(other.offset_m)
+    assert len({tuple(one.item for one in explanations) for explanations in together}) > 2, "else this tests little"
+
+
 def test_inside_a_park_is_all_of_it(field) -> None:
     evidence = field.evidence([thing("Chelsea Park", cue=Cue("inside"))])
     inside = evidence.log_p(np.array([(245.0, 15.0), (285.0, 40.0)]), np.zeros(2, np.int64))

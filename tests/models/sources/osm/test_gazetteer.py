@@ -281,3 +281,20 @@ def test_the_made_up_town_has_its_streets(osm_file, city) -> None:
     assert streets == {f"East Street {n}" for n in range(6)} | {f"North Path {n}" for n in range(6)}
     assert 16 <= len(result.corner_streets) <= 36, "those at the edge may miss each other by a millimetre"
     assert {"amenity/bench", "highway/street_lamp", "natural/tree"} <= result.by_kind.keys()
+
+
+def test_a_district_that_is_a_point_is_an_area(osm, tmp_path) -> None:
+    osm.node((0, 0), place="neighbourhood", name="Kallio")
+    osm.node((0, 50), amenity="cafe", name="Ekberg")
+    gazetteer = osm.load(tmp_path)
+    kallio, ekberg = (names(gazetteer).index(name) for name in ("Kallio", "Ekberg"))
+    assert gazetteer.is_area[[kallio, ekberg]].tolist() == [True, False]
+    assert np.hypot(*segments(gazetteer, kallio)[:, :2].T) == pytest.approx(300.0, rel=0.01)
+
+
+def test_the_name_of_a_house_is_not_that_of_a_shop_in_it(osm, tmp_path) -> None:
+    osm.node((0, 0), shop="toys", name="Kids Park", addr__housename="Stockmann")
+    osm.ring(100, 120, building="yes", addr__housename="Argos")
+    known = {name for words in osm.load(tmp_path).objects for name in words.names}
+    assert {"Kids Park", "Argos"} <= known
+    assert "Stockmann" not in known
