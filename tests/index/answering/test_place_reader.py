@@ -255,3 +255,11 @@ def test_evidence_is_calibrated_by_how_sure_the_answer_is(localizer) -> None:
     shown = answer(localizer, text).evidence
     before, after = ([item.explained for item in items] for items in (raw.views[0].evidence, shown))
     assert all(0.5 < one < other < 1.0 for one, other in zip(after, before, strict=True))
+
+
+def test_an_object_with_another_name_explains_no_more_than_half(localizer) -> None:
+    result = answer(localizer, "I'm on East Street 2 by the Astoria bench")
+    [bench] = [item for item in result.evidence if "bench" in item.text]
+    assert bench.text == "Astoria bench"
+    assert 0.0 < bench.explained <= 0.5
+    assert any("Astoria bench" in warning for warning in result.warnings)

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -26,6 +28,20 @@ def test_a_radius_beyond_the_size_of_a_cell_is_ambiguous(localizer, times, statu
     [place] = answer.places
     assert place.position == answer.estimate.position
     assert place.probability == pytest.approx(1.0)
+
+
+def test_an_answer_that_may_well_be_far_off_is_ambiguous(localizer) -> None:
+    near = distribution(5.0)
+    weight = np.where(np.arange(64) < 16, 0.2 / 16, 0.8 / 48)
+    far_m = np.where((np.arange(64) < 16)[:, None], near.points_m + 300.0, near.points_m)
+    cells = localizer.gallery.cells
+    for located, status in ((near, "ok"), (replace(near, points_m=far_m, weight=weight), "ambiguous")):
+        answer = to_answer(
+            Query("a tree"), LocalizerResult(located), localizer.vector_localizer("none"), cells, localizer.frame
+        )
+        assert answer.estimate.radius_m.p50 < 10.0
+        assert answer.status == status
+        assert answer.estimate.within_m[100] == pytest.approx(1.0 if status == "ok" else 0.8, abs=0.02)
 
 
 def test_a_refused_result_has_no_estimate(localizer) -> None:

@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from index.evaluation.certainty import certainty_table, measure, read_city
+from index.answering.answers import Evidence
+from index.evaluation.certainty import _is_right, certainty_table, measure, read_city
 from models.posterior.certainty import DISTANCES_M
 from models.sources.place_texts import PlaceText, WrittenMention
 from models.training.posterior.fit_certainty import fit_certainty
@@ -40,3 +41,21 @@ def test_figures_of_a_city_by_its_certainty(localizer, texts) -> None:
     assert 0 <= figures["p50_holds"] <= figures["p90_holds"] <= 1
     head, [row] = certainty_table({"here": figures})
     assert len(head) == len(row)
+
+
+@pytest.mark.parametrize(
+    ("relation", "away_m", "source_id", "is_right"),
+    [
+        ("near", 30.0, "node/1", True),
+        ("near", 104.0, "node/1", False),
+        ("far", 104.0, "node/1", True),
+        ("north", 104.0, "node/1", True),
+        ("near", 30.0, "node/2", False),
+        ("corner", None, None, True),
+    ],
+)
+def test_right_evidence_is_the_object_meant_in_its_relation(relation, away_m, source_id, is_right) -> None:
+    evidence = Evidence(
+        "cafe", (0, 4), "cafe", None, relation, None, absent=False, explained=0.9, source_id=source_id, away_m=away_m
+    )
+    assert _is_right(evidence, ["node/1", None], 50.0) is is_right
