@@ -295,4 +295,5 @@ class IndexFacts:
     num_instances: int
     dim: int
     scenery_parts: int  # files of the drawing of the map
+    box_m: tuple[float, float, float, float]  # west, south, east and north of its cells
     summary: MapSummary | None = None  # None for a data set

@@ -103,7 +103,8 @@ class Localizer:
     @property
     def facts(self) -> IndexFacts:
         """Return facts about the index."""
-        manifest = self.manifest
+        manifest, cells = self.manifest, self.gallery.cells
+        centers_m, half_m = cells.center_m[:, :2].astype(np.float64), cells.size_m / 2
         return IndexFacts(
             version=manifest.version,
             created=manifest.created,
@@ -114,6 +115,7 @@ class Localizer:
             num_instances=manifest.instances,
             dim=manifest.dim,
             scenery_parts=sum(is_scenery(name) for name in manifest.files),
+            box_m=(*(centers_m.min(axis=0) - half_m).tolist(), *(centers_m.max(axis=0) + half_m).tolist()),
             summary=manifest.summary,
         )
 

@@ -20,6 +20,7 @@ from index.answering.answers import (
 from models.citymap.frame import Frame
 
 MADE_IT, ANSWERED = ModelName("fake", "ab" * 32), ModelName("posterior/fake", "cd" * 32)
+BOX_M = (-1000.0, -1000.0, 1000.0, 1000.0)
 TRUE_FRAME = Frame("map", 60.17, 24.94)
 
 
@@ -29,7 +30,7 @@ class FakeLocalizer:
     is_steered = True
 
     facts = IndexFacts(
-        "v1", "2026-01-01T00:00:00+00:00", "fakeville", "© nobody", ModelName("fake", "ab" * 32), 2, 3, 8, 1
+        "v1", "2026-01-01T00:00:00+00:00", "fakeville", "© nobody", ModelName("fake", "ab" * 32), 2, 3, 8, 1, BOX_M
     )
 
     def __init__(self, frame=TRUE_FRAME, parts=()):

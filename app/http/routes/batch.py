@@ -13,7 +13,7 @@ from app.http.errors import Code, Problem, ProblemBody, as_problem
 from app.http.indexes import Indexes
 from app.http.openapi import problems
 from app.http.queue import UNAVAILABLE
-from app.http.routes.localize import check_reach, localize_for
+from app.http.routes.localize import check_positions, localize_for
 from app.http.schemas.requests import EXAMPLE, Body, LocalizeRequest
 from app.http.schemas.responses import LocalizeResponse
 from app.limits import MAX_BATCH_ITEMS
@@ -77,7 +77,7 @@ async def _answer(request: Request, item: dict[str, Any], indexes: Indexes) -> B
         return BatchItem(error=ProblemBody.model_validate(as_problem(invalid).body()))
     try:
         async with indexes.lease(body.index) as queue:
-            check_reach(body, queue.localizer.frame)
+            check_positions(body, queue.localizer)
             return BatchItem(result=await localize_for(request, body, queue))
     except (Problem, HereaboutsError) as error:
         return BatchItem(error=ProblemBody.model_validate(as_problem(error).body()))

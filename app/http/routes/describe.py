@@ -11,7 +11,7 @@ from app.http.dependencies import AllIndexes
 from app.http.errors import Code, Problem
 from app.http.openapi import problems
 from app.http.queue import QUERY_ERRORS
-from app.http.routes.localize import check_reach
+from app.http.routes.localize import check_positions
 from app.http.schemas.requests import DescribeRequest
 from app.http.schemas.responses import DescribeResponse
 
@@ -28,7 +28,7 @@ async def describe(body: DescribeRequest, indexes: AllIndexes) -> DescribeRespon
     async with indexes.lease(body.index) as queue:
         queue.check_accepting()
         localizer = queue.localizer
-        check_reach(body, localizer.frame)
+        check_positions(body, localizer)
         x, y = localizer.frame.position_m(body.position, body.crs).tolist()
         # This runs no model, so it needs no worker: a thread is enough.
         work = asyncio.to_thread(localizer.describe, (x, y))

@@ -16,7 +16,7 @@ from app.http.formats.negotiation import GEOJSON, JSON
 from app.http.formats.nominatim import NO_RESULT, Format, format_places, reverse_result, search_results
 from app.http.openapi import geojson_content, problems
 from app.http.queue import QUERY_ERRORS, InferenceQueue
-from app.http.routes.localize import SEARCH_ERRORS, check_reach, localize_for
+from app.http.routes.localize import SEARCH_ERRORS, check_positions, localize_for
 from app.http.schemas.requests import LocalizeRequest
 from index.build.artifact import DEFAULT_ALIAS
 from models.citymap.frame import Frame
@@ -52,7 +52,7 @@ async def search(
             )
         except ValidationError as error:
             raise RequestValidationError([_as_query_error(item) for item in error.errors()]) from None
-        check_reach(body, frame)
+        check_positions(body, queue.localizer)
         response = await localize_for(request, body, queue)
         results = await asyncio.to_thread(search_results, response, queue.localizer, limit)
     return _respond(format_places(results, form), form)

@@ -18,11 +18,11 @@ from app.http.formats.geojson import localize_collection
 from app.http.formats.negotiation import GEOJSON, negotiate, respond
 from app.http.middleware import descriptions_of
 from app.http.openapi import geojson_content, problems
+from app.http.protocol import LocalizerLike
 from app.http.queue import QUERY_ERRORS, InferenceQueue, ServedAnswer
 from app.http.schemas.requests import DescribeRequest, LocalizeRequest
 from app.http.schemas.responses import LocalizeResponse
 from app.http.schemas.ros import to_ros_pose
-from models.citymap.frame import Frame
 
 SEARCH_ERRORS = (*QUERY_ERRORS, Code.NO_GEOREFERENCE, Code.QUEUE_FULL, Code.STORE_UNAVAILABLE, Code.DEADLINE_EXCEEDED)
 ERRORS = (*REFUSALS, Code.NOT_ACCEPTABLE, *SEARCH_ERRORS)
@@ -54,7 +54,7 @@ async def localize(request: Request, body: LocalizeRequest, indexes: AllIndexes)
     async with indexes.lease(body.index) as queue:
         frame = queue.localizer.frame
         media_type = negotiate(request, frame)
-        check_reach(body, frame)
+        check_positions(body, queue.localizer)
         response = await localize_for(request, body, queue)
     return respond(localize_collection(response, frame) if media_type == GEOJSON else response, media_type)
 
@@ -74,16 +74,29 @@ async def localize_for(request: Request, body: LocalizeRequest, queue: Inference
     return response
 
 
-def check_reach(body: LocalizeRequest | DescribeRequest, frame: Frame) -> None:
-    """Raise 422 for degrees that cannot be projected into the map's frame."""
-    if body.crs == "map":
-        return
-    if not frame.is_georeferenced:
+def check_positions(body: LocalizeRequest | DescribeRequest, localizer: LocalizerLike) -> None:
+    """Raise 422 for degrees that cannot be projected, that are swapped, or that are sent as metres."""
+    frame = localizer.frame
+    if body.crs == "wgs84" and not frame.is_georeferenced:
         raise Problem.for_field("crs", "this map has no georeference; send metres with crs map")
-    for field, (lon, lat) in body.points():
+    for field, (x, y) in body.points() if frame.is_georeferenced else ():
+        is_right, is_swapped = _is_on_map(localizer, y, x), _is_on_map(localizer, x, y)
+        if body.crs == "map" and (is_right or is_swapped):
+            raise Problem.for_field(field, "looks like degrees; send crs wgs84, or metres of the map")
+        if body.crs == "wgs84" and is_swapped and not is_right:
+            raise Problem.for_field(field, "looks like [latitude, longitude]; send [longitude, latitude]")
         # A box is compared in degrees; only single points are projected.
-        if field != "within.bbox" and not np.isfinite(frame.from_wgs84(lat, lon)).all():
+        if body.crs == "wgs84" and field != "within.bbox" and not np.isfinite(frame.from_wgs84(y, x)).all():
             raise Problem.for_field(field, "is too far from the map; send [longitude, latitude] near it")
+
+
+def _is_on_map(localizer: LocalizerLike, lat: float, lon: float) -> bool:
+    """Return whether degrees lie in the box round the map's cells."""
+    if not (abs(lat) <= 90 and abs(lon) <= 180):
+        return False
+    x, y = localizer.frame.from_wgs84(lat, lon)
+    west, south, east, north = localizer.facts.box_m
+    return bool(west <= x <= east and south <= y <= north)
 
 
 async def run_while_connected(request: Request, work: Coroutine[Any, Any, ServedAnswer]) -> ServedAnswer:

@@ -1,9 +1,9 @@
 import math
 
 import pytest
-from fake_localizer import TRUE_FRAME, FakeLocalizer
+from fake_localizer import FakeLocalizer
 
-from app.http.routes.localize import check_reach
+from app.http.routes.localize import check_positions
 from app.http.schemas.requests import DescribeRequest
 from models.citymap.frame import Frame
 
@@ -81,7 +81,7 @@ def test_it_does_not_wait_for_the_inference_thread(api, fake):
     ],
 )
 def test_wrong_field_is_named(refused, body, field):
-    fields, _ = refused(lambda body: check_reach(DescribeRequest.model_validate(body), TRUE_FRAME), body)
+    fields, _ = refused(lambda body: check_positions(DescribeRequest.model_validate(body), FakeLocalizer()), body)
     assert field in fields
 
 

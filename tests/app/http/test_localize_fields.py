@@ -1,7 +1,7 @@
 import pytest
-from fake_localizer import TRUE_FRAME, FakeLocalizer
+from fake_localizer import FakeLocalizer
 
-from app.http.routes.localize import check_reach
+from app.http.routes.localize import check_positions
 from app.http.schemas.requests import LocalizeRequest
 from models.citymap.frame import Frame
 
@@ -63,6 +63,12 @@ TREE = {"question": "near:tree", "choice": "yes"}
         ({"prior": {"position": [0, 0]}}, "prior.sigma_m"),
         ({"prior": {"position": [181, 0], "sigma_m": 1}, "crs": "wgs84"}, "prior.position"),
         ({"prior": {"position": [114.94, 0], "sigma_m": 1}, "crs": "wgs84"}, "prior.position"),
+        ({"prior": {"position": [60.17, 24.94], "sigma_m": 1}, "crs": "wgs84"}, "prior.position"),
+        ({"prior": {"position": [24.94, 60.17], "sigma_m": 1}}, "prior.position"),
+        ({"prior": {"position": [60.17, 24.94], "sigma_m": 1}}, "prior.position"),
+        ({"listener": [60.17, 24.94], "crs": "wgs84"}, "listener"),
+        ({"within": {"circle": {"center": [60.17, 24.94], "radius_m": 1}}, "crs": "wgs84"}, "within.circle.center"),
+        ({"within": {"bbox": [60.165, 24.93, 60.175, 24.95]}, "crs": "wgs84"}, "within.bbox"),
         ({"answers": None}, "answers"),
         ({"answers": [TREE] * 9}, "answers"),
         ({"answers": [{"question": "near:tree"}]}, "answers[0].choice"),
@@ -77,7 +83,7 @@ TREE = {"question": "near:tree", "choice": "yes"}
 def test_wrong_field_is_named(refused, body, field):
     if not {"description", "hints"} & set(body) and body:
         body = {"description": "a tree", **body}
-    fields, _ = refused(lambda body: check_reach(LocalizeRequest.model_validate(body), TRUE_FRAME), body)
+    fields, _ = refused(lambda body: check_positions(LocalizeRequest.model_validate(body), FakeLocalizer()), body)
     assert field in fields
 
 
