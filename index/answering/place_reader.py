@@ -1,6 +1,6 @@
 """Named places in a description: mentions, their evidence about positions, and what explains them."""
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import replace
 from typing import Any, Final
 
@@ -16,10 +16,12 @@ from models.citymap.frame import Frame
 from models.citymap.gazetteer.gazetteer import Gazetteer
 from models.citymap.kinds.vocabulary import load_vocabulary
 from models.citymap.types import Floats
+from models.language.languages.detect import ENGLISH
+from models.language.languages.english import English
+from models.language.languages.tabulated import tabulated
 from models.language.measures import compass_name, distance_in_text, overlaps
 from models.language.mentions.codes.reader import CodeReader
 from models.language.mentions.cue_reader import CueReader
-from models.language.mentions.languages import ENGLISH
 from models.language.mentions.lookup import Lookup
 from models.language.mentions.mentions import Mention
 from models.language.mentions.name_table import NameTable
@@ -57,30 +59,29 @@ class PlaceReader:
         frame: Frame | None = None,  # None to go without codes
     ) -> None:
         self.gazetteer, self.field = gazetteer, PlaceField(kernels, gazetteer, centers_m, grid_m)
-        self.meanings, self._cues = meanings, cues
+        self.meanings, self._english = meanings, English(cues)
         self._lookup = Lookup(gazetteer, load_vocabulary(), text_encoder.is_everyday, names)
         self._codes = None if frame is None else CodeReader(self._lookup, frame, centers_m)
-        self._cache: LRUCache[tuple[str, str, tuple[tuple[int, int], ...]], list[Mention]] = LRUCache(
-            CACHE_BYTES, _memory_bytes
-        )
+        self._cache: LRUCache[tuple[Hashable, ...], list[Mention]] = LRUCache(CACHE_BYTES, _memory_bytes)
 
     def read(
-        self, description: str, language: str, nouns: Sequence[tuple[int, int]] = (), *, to_listener: bool
+        self, description: str, codes: tuple[str, ...], nouns: Sequence[tuple[int, int]] = (), *, to_listener: bool
     ) -> list[Mention]:
-        """Return the mentions of a description.
+        """Return the mentions of a description in languages of `detect_languages`.
 
         `nouns` are the start and end of the nouns that the hint reader found. With `to_listener` the position of a
         listener is known; otherwise the text decides whether it is about a meeting point.
         """
-        mentions = self._mentions(description, language, tuple(nouns))
-        if language == ENGLISH and (to_listener or is_meeting(description)):
+        mentions = self._mentions(description, codes, tuple(nouns))
+        if codes == (ENGLISH,) and (to_listener or is_meeting(description)):
             mentions = mark_goal(mentions)
         return mentions
 
     @cachedmethod(lambda reader: reader._cache)
-    def _mentions(self, description: str, language: str, nouns: tuple[tuple[int, int], ...]) -> list[Mention]:
+    def _mentions(self, description: str, codes: tuple[str, ...], nouns: tuple[tuple[int, int], ...]) -> list[Mention]:
+        language = self._english if codes == (ENGLISH,) else tabulated(codes)
         like = None if self.meanings is None else self.meanings.like
-        return find_mentions(description, self._lookup, self._cues, language, nouns, like, self._codes)
+        return find_mentions(description, self._lookup, language, nouns, like, self._codes)
 
     def place_evidence(
         self, mentions: Sequence[Mention], description: str, listener_m: Floats | None

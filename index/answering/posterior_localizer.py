@@ -26,8 +26,9 @@ from models.citymap.gallery import Gallery
 from models.citymap.gazetteer.gazetteer import EMPTY_GAZETTEER, Gazetteer
 from models.citymap.points import Ints
 from models.citymap.types import Floats
+from models.language.languages.detect import ENGLISH, LANGUAGE_NAMES, detect_languages
+from models.language.languages.table import table_codes
 from models.language.mentions.contradictions import contradictions
-from models.language.mentions.languages import ENGLISH, LANGUAGE_NAMES, detect_language
 from models.language.mentions.mentions import Mention
 from models.language.mentions.name_table import NameTable
 from models.language.mentions.reader import is_meeting, listener_wind
@@ -112,15 +113,15 @@ class PosteriorLocalizer:
     def _find(self, query: Query, hints: Sequence[ParsedHint], encode_ms: float) -> LocalizerResult:
         start = time.perf_counter()
         reply_evidence = self.questions.reply_evidence(query.replies)
-        language = detect_language(query.description)
-        hints = hints if language == ENGLISH else []
-        warnings = _language_warnings(language)
-        hints, bound_hints, mentions, place_evidence = self._read(query, language, hints)
+        languages = detect_languages(query.description)
+        hints = hints if languages == (ENGLISH,) else []
+        warnings = _language_warnings(languages)
+        hints, bound_hints, mentions, place_evidence = self._read(query, languages, hints)
         timings = {"encode": encode_ms + elapsed_ms(start)}
         warnings += (*(mention.warning for mention in mentions if mention.warning), *contradictions(mentions))
         known_facts = KnownFacts.from_text(bound_hints, mentions, list(self.labels), self._gazetteer)
         if not hints and place_evidence is None and reply_evidence is None:
-            question = self._question_for_refused(query, language, known_facts)
+            question = self._question_for_refused(query, known_facts)
             refusal = NO_MATCH if mentions else NO_HINTS
             return LocalizerResult(None, refusal, timings_ms=timings, warnings=warnings, question=question)
         start = time.perf_counter()
@@ -132,7 +133,7 @@ class PosteriorLocalizer:
         result = self._explain(located, hints, bound_hints, mentions, place_evidence)
         first, *others = result.views
         if place_evidence is not None:
-            facts = _text_facts(query, language, mentions, len(hints), first.evidence, located.other)
+            facts = _text_facts(query, languages, mentions, len(hints), first.evidence, located.other)
             located = replace(located, facts=facts, certainty=self.weights.config.certainty)
         first = replace(first, evidence=with_description_spans(query.description, first.evidence))
         result = replace(result, located=located, views=(first, *others))
@@ -140,9 +141,7 @@ class PosteriorLocalizer:
         if not fits and reply_evidence is not None:
             warnings += (REPLIES_ONLY,)
         if not fits and reply_evidence is None and first.evidence:
-            result = replace(
-                result, refusal=NO_MATCH, question=self._question_for_refused(query, language, known_facts)
-            )
+            result = replace(result, refusal=NO_MATCH, question=self._question_for_refused(query, known_facts))
         elif self._is_uncertain(located, reply_evidence) and not _is_about_another_place(query):
             result = replace(result, question=self.questions.ask(located, known_facts, query.replies))
         timings["estimate"] = elapsed_ms(start)
@@ -151,9 +150,9 @@ class PosteriorLocalizer:
     def _is_uncertain(self, located: PositionDistribution, reply_evidence: ReplyEvidence | None) -> bool:
         return is_ambiguous(located) or (reply_evidence is not None and located.radii_m(0.5)[0] > WELL_LOCATED_M)
 
-    def _question_for_refused(self, query: Query, language: str, known_facts: KnownFacts) -> Question | None:
-        """Return the question for a refused text; None on a map without names and for texts that are not English."""
-        if not self.questions.has_names or language != ENGLISH or _is_about_another_place(query):
+    def _question_for_refused(self, query: Query, known_facts: KnownFacts) -> Question | None:
+        """Return the question for a refused text; None on a map without names."""
+        if not self.questions.has_names or _is_about_another_place(query):
             return None
         log_p, inside = log_prior(query, self.gallery.cells.center_m[:, :2], self.frame), self._inside(query)
         log_p = log_p if inside is None else np.where(inside.has_node, log_p, -np.inf)
@@ -180,7 +179,7 @@ class PosteriorLocalizer:
         return LocalizerResult(located, views=tuple(views), heading=heading)
 
     def _read(
-        self, query: Query, language: str, hints: Sequence[ParsedHint]
+        self, query: Query, languages: tuple[str, ...], hints: Sequence[ParsedHint]
     ) -> tuple[Sequence[ParsedHint], BoundHints | None, list[Mention], PlaceEvidence | None]:
         """Return the hints about nearby objects, these bound to the map, the mentions of places, and their evidence."""
         if self.places is None:
@@ -188,7 +187,7 @@ class PosteriorLocalizer:
         listener_m = None if query.listener is None else self.frame.position_m(query.listener, query.crs)
         text = reader_text(query.description)
         nouns = [(hint.start, hint.end) for hint in hints]
-        mentions = self.places.read(text, language, nouns, to_listener=listener_m is not None)
+        mentions = self.places.read(text, languages, nouns, to_listener=listener_m is not None)
         hints = [] if mentions and _is_about_another_place(query) else possibly_near_hints(hints, mentions)
         bound_hints = self.binding.bind(hints) if hints else None
         trust = [] if bound_hints is None else bound_hints.label.amax(dim=1).tolist()
@@ -292,7 +291,7 @@ def _is_about_another_place(query: Query) -> bool:
 
 def _text_facts(
     query: Query,
-    language: str,
+    languages: tuple[str, ...],
     mentions: Sequence[Mention],
     hints: int,
     evidence: Sequence[Evidence],
@@ -307,13 +306,17 @@ def _text_facts(
         unexplained=max(0, unexplained - unknown),
         other=other,
         anchor=any(mention.is_anchor for mention in known),
-        foreign=language != ENGLISH,
+        foreign=not _is_understood(languages),
         meeting=query.listener is not None or is_meeting(query.description),
     )
 
 
-def _language_warnings(language: str) -> tuple[str, ...]:
-    if language == ENGLISH:
+def _is_understood(languages: tuple[str, ...]) -> bool:
+    return table_codes().issuperset(set(languages) - {ENGLISH})
+
+
+def _language_warnings(languages: tuple[str, ...]) -> tuple[str, ...]:
+    if _is_understood(languages):
         return ()
-    name = LANGUAGE_NAMES.get(language, f"'{language}'")
-    return (f"the text seems to be in {name}: only names and nouns were used; English texts are understood completely",)
+    name = LANGUAGE_NAMES.get(languages[0], "a language that is not known here")
+    return (f"the text seems to be in {name}: only names and nouns were used",)

@@ -19,7 +19,7 @@ from index.evaluation.report import Table, as_markdown
 from index.evaluation.scoring import calibration
 from models.citymap.types import Floats, Progress
 from models.errors import DataError
-from models.language.mentions.languages import detect_language
+from models.language.languages.detect import detect_languages
 from models.language.mentions.mentions import Mention
 from models.language.mentions.reader import listener_wind
 from models.sources.place_texts import START_SIGMA_M, PlaceText
@@ -107,7 +107,7 @@ def _row(localizer: Localizer, text: PlaceText, answer: Answer) -> tuple[float, 
 
 
 def _constructions(places: PlaceReader, text: PlaceText) -> set[str]:
-    mentions = places.read(text.text, detect_language(text.text), to_listener=text.start is not None)
+    mentions = places.read(text.text, detect_languages(text.text), to_listener=text.start is not None)
     names = {name for mention in mentions for name in constructions_of(mention)}
     return names | ({"listener"} if text.start is not None and listener_wind(text.text) is not None else set())
 

@@ -1,6 +1,5 @@
 """Combine streets of a text (corners, spans between two cross streets), and resolve repeated ones."""
 
-import re
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
@@ -9,6 +8,7 @@ import numpy as np
 
 from models.citymap.points import Ints
 from models.citymap.types import Floats
+from models.language.languages.tabulated import Language
 from models.language.mentions.cues import Cue
 from models.language.mentions.lookup import Lookup
 from models.language.mentions.mentions import Mention
@@ -17,14 +17,10 @@ from models.language.mentions.word_lists import english
 
 LONGEST_SPAN_M: Final = 600.0
 _W = english()
-_MEETS, _AND = _W.pattern("streets", "meets"), _W.pattern("streets", "and")
 _AGAIN = _W.pattern("streets", "again")  # a street repeated by its kind: "I'm on Fifth, the avenue is behind me"
-_LOOSELY, _BETWEEN = _W.pattern("streets", "loosely"), _W.pattern("streets", "between")
-_SURELY = re.compile(r"\b(?:and|at|meets|crosses|corner of)\b|[&/@]", re.IGNORECASE)
-_AT_END = re.compile(r"\s*(?:$|[.,;!?\n]|corner\b|crossing\b|intersection\b)", re.IGNORECASE)
 
 
-def add_corners(text: str, mentions: Sequence[Mention], lookup: Lookup) -> list[Mention]:
+def add_corners(text: str, mentions: Sequence[Mention], lookup: Lookup, language: Language) -> list[Mention]:
     """Replace streets that a text combines by corners and spans."""
     streets = [n for n, mention in enumerate(mentions) if mention.form == "street"]
     joined: dict[int, Mention] = {}
@@ -35,7 +31,8 @@ def add_corners(text: str, mentions: Sequence[Mention], lookup: Lookup) -> list[
         if n in used or m in used:
             continue
         main = _main(mentions, [s for s in streets if s not in (n, m)], n, m)
-        combined = _combine(text, mentions[n], mentions[m], main, lookup, is_last=k + 2 >= len(streets))
+        is_last = k + 2 >= len(streets)
+        combined = _combine(text, mentions[n], mentions[m], main, lookup, language, is_last=is_last)
         if combined is not None and combined.form == "unknown":
             apart.append(combined)
         elif combined is not None:
@@ -61,22 +58,22 @@ def _main(mentions: Sequence[Mention], others: Sequence[int], n: int, m: int) ->
 
 
 def _combine(
-    text: str, one: Mention, other: Mention, main: Mention | None, lookup: Lookup, *, is_last: bool
+    text: str, one: Mention, other: Mention, main: Mention | None, lookup: Lookup, language: Language, *, is_last: bool
 ) -> Mention | None:
     """Combine two neighbouring streets to a span or a corner; "unknown" if the map has no such corner."""
-    between = text[one.end : other.start]
+    between = one.end, other.start
     whole = text[one.start : other.end], one.start, other.end
-    if _BETWEEN.search(text[: one.start]) and _AND.fullmatch(between):
+    if language.is_between(text, one.start, *between, other.end):
         span = _span(one, other, main, lookup)
         return span and _place_in_text(span, *whole)
-    if not _MEETS.fullmatch(between) or (not is_last and _BETWEEN.search(text[: other.start])):
+    if not (language.meets(text, *between) or language.meets_at_end(text, *between, other.end)):
         return None
-    if between.strip() == "," and not _AT_END.match(text, other.end):
-        return None  # "in Rochstraße, Münzstraße is just behind me"
+    if not is_last and language.begins_between(text, other.start):
+        return None
     corner = _corner(one, other, lookup)
-    cue = Cue("near" if _LOOSELY.search(between) else "at")
+    cue = Cue("near" if language.is_loose(text, *between) else "at")
     if corner is None:
-        return _place_in_text(Mention("", 0, 0, "unknown"), *whole) if _SURELY.search(between) else None
+        return _place_in_text(Mention("", 0, 0, "unknown"), *whole) if language.is_sure(text, *between) else None
     return replace(_place_in_text(corner, *whole), cue=cue)
 
 

@@ -10,8 +10,7 @@ from torch import Tensor, nn
 from torch.func import functional_call
 
 from models.language.int8 import Int8Layer, attention_bias, can_quantize, run_int8_layers
-from models.language.mentions.cues import Relation
-from models.language.mentions.spans import Form
+from models.language.mentions.cues import Form, Relation
 from models.language.text_encoder import TextEncoder, TokenFeatures
 
 # Degrees; None without a direction.

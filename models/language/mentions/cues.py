@@ -5,6 +5,7 @@ from typing import Final, Literal
 
 from models.language.measures import Measure
 
+Form = Literal["thing", "street", "corner", "span", "address", "unknown"]  # of a mention
 Relation = Literal[
     "seen", "at", "outside", "beside", "near", "across", "inside", "past", "off", "on", "far", "block", "wind"
 ]

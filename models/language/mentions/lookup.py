@@ -1,8 +1,9 @@
 """Look up the objects of a map by name: exact, partial or misspelt, and by kind."""
 
-from collections.abc import Callable, Container, KeysView, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Container, Iterable, Iterator, KeysView, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache, reduce
+from itertools import islice, product
 from math import log
 from typing import Final
 
@@ -15,9 +16,9 @@ from models.citymap.gazetteer.name_columns import STREET_KIND
 from models.citymap.kinds.vocabulary import Vocabulary
 from models.citymap.points import Ints
 from models.citymap.types import Floats
-from models.language.mentions.abbreviations import written_out
+from models.language.languages.table import MIN_SHARED, LanguageTable, is_inflected, shared_letters
+from models.language.mentions.abbreviations import MAX_READINGS, written_out
 from models.language.mentions.house_numbers import NumberMatch, first_value, match_number, plain_number
-from models.language.mentions.languages import ENGLISH
 from models.language.mentions.name_table import NUMBER_SEPARATOR, NameTable
 from models.language.mentions.names import ARTICLES, full_words, plain_word, plain_words
 from models.language.mentions.word_lists import english
@@ -28,6 +29,23 @@ MIN_MISSPELT_CHARACTERS: Final = 5
 MIN_PART_SHARE: Final = 0.35  # of the word weights of a name that a part must have
 PART_WEIGHT: Final = 0.5  # weight of a partial match next to exact ones
 MAX_CACHED_PHRASES: Final = 4096  # with their kinds, and with their streets
+MAX_BASES: Final = 4  # base forms of a word
+FORM_TRUST: Final = 0.9  # of a name in another case
+COMPOUND_KINDS: Final = (
+    "strasse",
+    "allee",
+    "gasse",
+    "weg",
+    "platz",
+    "damm",
+    "ufer",
+    "ring",
+    "katu",
+    "tie",
+    "gatan",
+    "straat",
+    "laan",
+)
 MAX_CACHED_BYTES: Final = 2**24  # of objects by kind
 # Between neighbours of the same side: up to this, interpolation is off by 20 m in the median, 45 m in a tenth of cases,
 # measured by leaving out known numbers of 18 cities; beyond, by 40 and 150 m.
@@ -69,7 +87,7 @@ class Lookup:
     ) -> None:
         self.gazetteer, self.vocabulary, self.is_common = gazetteer, vocabulary, is_common
         self._table = NameTable.from_gazetteer(gazetteer, vocabulary, is_common) if table is None else table
-        self._nouns = self._plain_nouns(ENGLISH)
+        self._nouns = self._plain_nouns()
         self._kinds = lru_cache(maxsize=MAX_CACHED_PHRASES)(self._kinds_of)
         self._streets = lru_cache(maxsize=MAX_CACHED_PHRASES)(self._streets_of)
         self._of_kinds: LRUCache[tuple[tuple[str, float], ...], Match | None] = LRUCache(MAX_CACHED_BYTES, _match_bytes)
@@ -96,6 +114,30 @@ class Lookup:
             return None
         weights = self._table.weight[rows]
         return Match(self._table.street[rows], weights, 1.0, bool(weights.max() == 1.0))
+
+    def street_form(self, words: Sequence[str]) -> Match | None:
+        """Return the streets of a name in another case, or cut short: "Mannerheimintiellä", "Memhard-"."""
+        for reading in _readings(words, self._table.street_words, self._street_beginnings):
+            match = self.street(reading)
+            if match is not None:
+                return match
+        return None
+
+    def named_form(self, words: Sequence[str]) -> Match | None:
+        """Return the objects with a name in another case: "Stockmannin"."""
+        for reading in _readings(words, self._table.words, self._name_beginnings):
+            match = self.named(reading)
+            if match is not None:
+                return replace(match, trust=FORM_TRUST * match.trust)
+        return None
+
+    @cached_property
+    def _street_beginnings(self) -> Mapping[str, list[str]]:
+        return _by_beginning(self._table.street_words.all_keys)
+
+    @cached_property
+    def _name_beginnings(self) -> Mapping[str, list[str]]:
+        return _by_beginning(self._table.words.all_keys)
 
     @property
     def street_words(self) -> Container[str]:
@@ -198,9 +240,9 @@ class Lookup:
         nouns = (noun for noun, kinds in self._nouns.items() if any(kind in by_kind for kind, _ in kinds))
         return sorted({phrase for phrase in (*self._table.names.all_keys, *nouns) if " " in phrase})
 
-    def kinds(self, words: Sequence[str], language: str = ENGLISH) -> Mapping[str, float]:
-        """Return the kinds that a noun means with their weights; often none."""
-        return self._kinds(tuple(words), language)
+    def kinds(self, words: Sequence[str], table: LanguageTable | None = None) -> Mapping[str, float]:
+        """Return the kinds that a noun means with their weights, in English or the languages of a table; often none."""
+        return self._kinds(tuple(words)) if table is None else table.kinds(tuple(words))
 
     def kinds_in_any_language(self, word: str) -> Mapping[str, float]:
         """Return the kinds that a word means in any language: "the Kahvila"."""
@@ -233,8 +275,8 @@ class Lookup:
     def _is_telling(self, word: str) -> bool:
         return self._table.words.count(word) <= 40 and word not in EMPTY and len(word) > 1 and not word[0].isdigit()
 
-    def _plain_nouns(self, language: str) -> Nouns:
-        nouns = {**self._own_nouns, **self.vocabulary.nouns(language)}
+    def _plain_nouns(self) -> Nouns:
+        nouns = {**self._own_nouns, **self.vocabulary.nouns("en")}
         return {" ".join(plain_words(noun)): kinds for noun, kinds in nouns.items()}
 
     @cached_property
@@ -251,13 +293,38 @@ class Lookup:
             nouns.setdefault(plain_word(noun), kinds)
         return nouns
 
-    def _kinds_of(self, words: tuple[str, ...], language: str) -> Mapping[str, float]:
-        nouns = self._nouns if language == ENGLISH else self._plain_nouns(language)
+    def _kinds_of(self, words: tuple[str, ...]) -> Mapping[str, float]:
         for last in _singulars(words[-1]):
-            kinds = nouns.get(" ".join((*words[:-1], last)))
+            kinds = self._nouns.get(" ".join((*words[:-1], last)))
             if kinds:
                 return dict(kinds)
         return {}
+
+
+def _by_beginning(words: Iterable[str]) -> Mapping[str, list[str]]:
+    beginnings: dict[str, list[str]] = {}
+    for word in words:
+        if not word[0].isdecimal():
+            beginnings.setdefault(word[:MIN_SHARED], []).append(word)
+    return beginnings
+
+
+def _readings(
+    words: Sequence[str], known: Container[str], beginnings: Mapping[str, list[str]]
+) -> Iterator[tuple[str, ...]]:
+    """Yield the names of which words may be a form, likely ones first."""
+    options = []
+    for word in words:
+        near = [base for base in beginnings.get(word[:MIN_SHARED], ()) if _is_form(word, base)]
+        near.sort(key=lambda base: (-shared_letters(word, base), len(base)))
+        options.append([word] if word in known or not near else near[:MAX_BASES])
+    for reading in islice(product(*options), MAX_READINGS):
+        if reading != tuple(words):
+            yield reading
+
+
+def _is_form(word: str, base: str) -> bool:
+    return is_inflected(word, base) or any(base == word + kind for kind in COMPOUND_KINDS)
 
 
 def _singulars(word: str) -> list[str]:

@@ -9,23 +9,21 @@ import numpy as np
 
 from models.citymap.points import Ints
 from models.citymap.types import Floats
+from models.language.languages.tabulated import Language
 from models.language.measures import (
     COMPASS_WORD,
     Bearing,
     CharacterSpan,
     Measure,
-    find_bearings,
-    find_measures,
     first_bearing,
     match_facts_to_spans,
     overlaps,
 )
-from models.language.mentions.cue_reader import CueReader, ReadCue
-from models.language.mentions.cues import NO_CUE, Cue
+from models.language.mentions.cue_reader import ReadCue
+from models.language.mentions.cues import NO_CUE, Cue, Form
 from models.language.mentions.lookup import NO_LINES
 from models.language.mentions.names import Word
-from models.language.mentions.spans import Form, Span
-from models.language.mentions.word_lists import english
+from models.language.mentions.spans import Span
 
 MAX_ANCHOR_OBJECTS: Final = 4  # of a name that tells one place
 MentionForm = Form | Literal["point"]  # of a code, such as coordinates
@@ -87,26 +85,23 @@ _SIDE = re.compile(
     rf"\b({COMPASS_WORD})(?:ern|most)?\s+(?:side|end|corner|edge|part|half|bank)(?:\s+(?:of|on))?\b", re.IGNORECASE
 )
 _THE_STREET = re.compile(r"\s+(?:the|that|this)\s+(?:same\s+)?(?:street|road|avenue|ave|st)\b", re.IGNORECASE)
-_ABSENT = english().pattern("cues", "absent", r"\b(?:{})\s+(?:[a-z]+\s+){{0,2}}$")
-_GREETING = english().pattern("cues", "greeting", r"\W*(?:{})[ ,]+")
-_HERE = re.compile(r"\s+here\b", re.IGNORECASE)
 _THE = re.compile(r"\b(?:the|this|that|our|my)\s+$", re.IGNORECASE)
 _ON_TOP = re.compile(r"\bon[\s-]top of\s+(?:[a-z-]+\s+){0,3}$", re.IGNORECASE)
 
 
-def add_cues(text: str, mentions: Sequence[Mention], reader: CueReader) -> list[Mention]:
+def add_cues(text: str, mentions: Sequence[Mention], language: Language) -> list[Mention]:
     """Return mentions with their cues, without those that are absent or not meant."""
     mentions = [mention for n, mention in enumerate(mentions) if not _is_repeated(text, mention, mentions[:n])]
-    read = reader.read(text, [(m.start, m.end, "address" if m.form == "point" else m.form) for m in mentions])
+    read = language.read_cues(text, [(m.start, m.end, "address" if m.form == "point" else m.form) for m in mentions])
     meant = [
         (mention, cue)
         for mention, cue in zip(mentions, read, strict=True)
-        if (mention.is_denied or (cue.is_meant and not _ABSENT.search(text[: mention.start])))
-        and not _is_greeted(text, mention)
+        if (mention.is_denied or (cue.is_meant and not language.is_absent(text, mention.start)))
+        and not _is_greeted(text, mention, language)
     ]
     sides = [Bearing(m.start(), m.end(), first_bearing(m[1]) or 0.0) for m in _SIDE.finditer(text)]
-    winds = _without_overlaps(find_bearings(text), [*mentions, *sides])  # without the east of East 53rd Street
-    measures = match_facts_to_spans(text, find_measures(text), [mention for mention, _ in meant])
+    winds = _without_overlaps(language.find_bearings(text), [*mentions, *sides])  # without the east of East 53rd Street
+    measures = match_facts_to_spans(text, language.find_measures(text), [mention for mention, _ in meant])
     winds_by_mention = match_facts_to_spans(text, winds, [mention if cue.has_wind else None for mention, cue in meant])
     sides_by_mention = _sides(text, _without_overlaps(sides, mentions), meant)
     result = []
@@ -116,13 +111,10 @@ def add_cues(text: str, mentions: Sequence[Mention], reader: CueReader) -> list[
     return result
 
 
-def _is_greeted(text: str, mention: Mention) -> bool:
-    """Return whether an unknown name is a person's: "This is Ruth", "Hey Ruth", "Ruth here"."""
-    if mention.form != "unknown" or " " in mention.text:
-        return False
-    before = text[: mention.start]
-    is_here = not before.strip() and _HERE.match(text, mention.end) is not None
-    return is_here or _GREETING.fullmatch(before) is not None
+def _is_greeted(text: str, mention: Mention, language: Language) -> bool:
+    """Return whether an unknown name is a person's."""
+    is_word = mention.form == "unknown" and " " not in mention.text
+    return is_word and language.is_greeted(text, mention.start, mention.end)
 
 
 def _is_repeated(text: str, mention: Mention, before: Sequence[Mention]) -> bool:

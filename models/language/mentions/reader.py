@@ -5,6 +5,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
 
+from models.language.languages.english import English
+from models.language.languages.tabulated import Language
 from models.language.measures import COMPASS_WORD, find_measures, first_bearing
 from models.language.mentions.addresses import add_addresses
 from models.language.mentions.codes.reader import CodeReader
@@ -13,9 +15,7 @@ from models.language.mentions.crossings import (
     add_repeated_streets,
     resolve_repeated_streets,
 )
-from models.language.mentions.cue_reader import CueReader
 from models.language.mentions.discourse import with_standing, without_corrected
-from models.language.mentions.languages import ENGLISH
 from models.language.mentions.lookup import Lookup
 from models.language.mentions.mentions import Mention, add_cues
 from models.language.mentions.names import Word
@@ -33,29 +33,28 @@ _MEETING = _W.pattern("listener", "meeting")
 def find_mentions(
     text: str,
     lookup: Lookup,
-    cues: CueReader,
-    language: str = ENGLISH,
+    language: Language,
     nouns: Sequence[tuple[int, int]] = (),
     find_paraphrase: FindParaphrase | None = None,
     codes: CodeReader | None = None,
 ) -> list[Mention]:
     """Return the mentions of a text with their cues, in text order, without absent things.
 
-    Cues are read in English only. `nouns` are characters start..end from the hint reader; `codes` reads coordinates
-    and references.
+    `nouns` are characters start..end from the hint reader, which reads English; `codes` reads coordinates and
+    references.
     """
     coded = [] if codes is None else codes.find(text)
     bare = _blanked(text, coded)
-    if language != ENGLISH:
-        return _mentions(bare, coded, lookup, codes, *find_spans(bare, lookup, language))
-    text, bare = (_without_listener(one) for one in (_blanked(text, [m for m in coded if m.form != "thing"]), bare))
-    words, spans = find_spans(bare, lookup)
-    if find_paraphrase is not None:
+    if isinstance(language, English):
+        text, bare = (_without_listener(one) for one in (_blanked(text, [m for m in coded if m.form != "thing"]), bare))
+    words, spans = find_spans(bare, lookup, language)
+    if find_paraphrase is not None and isinstance(language, English):
         spans = add_paraphrases(spans, words, nouns, bare, lookup, find_paraphrase)
     mentions = _mentions(bare, coded, lookup, codes, words, spans)
     streets = [mention for mention in mentions if mention.form == "street"]
-    mentions = with_standing(text, without_corrected(text, add_corners(text, mentions, lookup)))
-    cued = add_cues(text, add_repeated_streets(text, mentions), cues)
+    corrected = without_corrected(text, add_corners(text, mentions, lookup, language), language)
+    mentions = add_repeated_streets(text, with_standing(text, corrected, language))
+    cued = add_cues(text, mentions, language)
     return resolve_repeated_streets(cued, streets, lookup)
 
 

@@ -4,21 +4,21 @@ import re
 from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
-from typing import Final, Literal
+from typing import Final
 
 import numpy as np
 from rapidfuzz import process
 from rapidfuzz.distance import OSA
 
+from models.language.languages.tabulated import Language
 from models.language.measures import find_measures
 from models.language.mentions.abbreviations import WORDS as STREET_WORDS
-from models.language.mentions.languages import ENGLISH
+from models.language.mentions.cues import Form
 from models.language.mentions.lookup import EMPTY, Lookup, Match
 from models.language.mentions.names import ORDINAL, Word, split_words
 from models.language.mentions.street_spans import match_street
 from models.language.mentions.word_lists import english
 
-Form = Literal["thing", "street", "corner", "span", "address", "unknown"]
 MAX_NAME_WORDS: Final = 6  # of a span
 MIN_NAME_CHARACTERS: Final = 3  # a shorter name after a kind is another thing
 MIN_SINGLE_WORD_WEIGHT: Final = 0.55  # of the kinds of a single word
@@ -51,12 +51,13 @@ class Span:
     lacks_name: bool = False  # whether it also has a name that no object of its kinds has: "Pasila station"
 
 
-def find_spans(text: str, lookup: Lookup, language: str = ENGLISH) -> tuple[list[Word], list[Span]]:
+def find_spans(text: str, lookup: Lookup, language: Language) -> tuple[list[Word], list[Span]]:
     """Return the words of a text and its spans, in order and without overlaps."""
     raw = split_words(text)
     words = [_at_start(word, raw[n - 1] if n else None, text, lookup) for n, word in enumerate(raw)]
     cased = any(word.is_capital for word in words[1:])
-    mended = {word.plain: correct_noun(word.plain, lookup) for word in words if lookup.is_strange(word.plain)}
+    strange = [word.plain for word in words if lookup.is_strange(word.plain)] if language.table is None else []
+    mended = {word: correct_noun(word, lookup) for word in strange}
     plain = tuple(word.plain for word in words)
     ends = [_ends(word, text[word.end : after.start]) for word, after in pairwise(words)] + [True]
     spans: list[Span] = []
@@ -67,7 +68,7 @@ def find_spans(text: str, lookup: Lookup, language: str = ENGLISH) -> tuple[list
                 break
     measures = find_measures(text)  # "twenty-five" metres are not 25th Street
     spans = [s for s in spans if not (s.form == "street" and any(m.contains(words[s.last]) for m in measures))]
-    chosen = _with_unknown(_chosen(spans, words), words, text, lookup)
+    chosen = _with_unknown(_chosen(spans, words), words, text, lookup, language)
     return words, [
         attach_objects(span, lookup) for span in _joined(_as_whole_names(chosen, words, text, lookup), words, text)
     ]
@@ -106,15 +107,15 @@ def _spans_at(
     plain: tuple[str, ...],
     mended: Mapping[str, str],
     lookup: Lookup,
-    language: str,
+    language: Language,
     *,
     cased: bool,
 ) -> list[Span]:
     """Return the spans that words first..last may be."""
-    streets = _streets_at(words, first, last, plain, lookup)
+    streets = _streets_at(words, first, last, plain, lookup, language)
     if words[last].owner and not streets and not lookup.is_name(plain):
         plain = (*plain[:-1], words[last].owner)
-        streets = _streets_at(words, first, last, plain, lookup)
+        streets = _streets_at(words, first, last, plain, lookup, language)
     spans = list(streets)
     if (plain[0] in EMPTY or plain[-1] in EMPTY) and not lookup.is_name(plain):
         return spans
@@ -124,7 +125,8 @@ def _spans_at(
         score = (WORD_SCORE if len(plain) == 1 else PHRASE_SCORE) + WORD_SCORE * len(plain)
         spans.append(Span(first, last, "thing", None, score, kinds))
     is_street = any(span.match is not None and span.match.is_exact for span in streets)
-    named = None if is_street else _named(words[first : last + 1], plain, lookup, cased=cased, is_kind=bool(kinds))
+    rows = slice(first, last + 1)
+    named = None if is_street else _named(words[rows], plain, lookup, language, cased=cased, is_kind=bool(kinds))
     if named:
         match, score = named
         if kinds and match.is_exact and all(word.is_capital or word.begins for word in words[first : last + 1]):
@@ -134,17 +136,21 @@ def _spans_at(
     return spans
 
 
-def _streets_at(words: Sequence[Word], first: int, last: int, plain: tuple[str, ...], lookup: Lookup) -> list[Span]:
-    street = match_street(words, first, last, plain, lookup)
+def _streets_at(
+    words: Sequence[Word], first: int, last: int, plain: tuple[str, ...], lookup: Lookup, language: Language
+) -> list[Span]:
+    street = match_street(words, first, last, plain, lookup, inflects=language.table is not None)
     return [] if street is None else [Span(first, last, "street", *street)]
 
 
-def _kinds(plain: tuple[str, ...], mended: Mapping[str, str], lookup: Lookup, language: str) -> Mapping[str, float]:
+def _kinds(
+    plain: tuple[str, ...], mended: Mapping[str, str], lookup: Lookup, language: Language
+) -> Mapping[str, float]:
     """Return the kinds that words mean; "the Thai one" is a Thai place, "the Kahvila" a cafe."""
-    if len(plain) == 1 and plain[0] in STOP:
+    if len(plain) == 1 and (plain[0] in language.stop or (plain[0] in STOP and language.table is None)):
         return {}
-    if language != ENGLISH:
-        return lookup.kinds(plain, language)
+    if language.table is not None:
+        return lookup.kinds(plain, language.table)
     noun = (*plain[:-1], "place") if len(plain) > 1 and plain[-1] in _ONE else plain
     kinds = lookup.kinds(noun) or lookup.kinds([mended.get(word, word) for word in noun])
     if len(plain) > 1:
@@ -161,12 +167,14 @@ def _is_seen(words: Sequence[Word], n: int) -> bool:
 
 
 def _named(
-    words: Sequence[Word], plain: tuple[str, ...], lookup: Lookup, *, cased: bool, is_kind: bool
+    words: Sequence[Word], plain: tuple[str, ...], lookup: Lookup, language: Language, *, cased: bool, is_kind: bool
 ) -> tuple[Match, float] | None:
     """Return the match of a name and its score; everyday words in lower case are rarely names."""
-    if _is_no_name(plain) or (is_kind and len(plain) == 1):
+    if _is_no_name(plain, language) or (is_kind and len(plain) == 1):
         return None
     match = lookup.named(plain)
+    if match is None and language.table is not None and (words[0].is_capital or not cased):
+        match = lookup.named_form(plain)
     if match is None:
         return None
     if len(words) == 1 and words[0].begins and match.is_exact:
@@ -186,8 +194,11 @@ def _named(
     return replace(match, trust=trust), weight * (EXACT_FACTOR if match.is_exact else PART_FACTOR) + float(capital)
 
 
-def _is_no_name(plain: tuple[str, ...]) -> bool:
-    empty = all(word in STOP or word in EMPTY or ORDINAL.fullmatch(word) or word.isdecimal() for word in plain)
+def _is_no_name(plain: tuple[str, ...], language: Language) -> bool:
+    empty = all(
+        word in STOP or word in language.stop or word in EMPTY or ORDINAL.fullmatch(word) or word.isdecimal()
+        for word in plain
+    )
     return empty or (len(plain) == 1 and plain[0] in PASSED)
 
 
@@ -213,23 +224,32 @@ def _chosen(spans: Sequence[Span], words: Sequence[Word]) -> list[Span]:
     return sorted(chosen, key=lambda span: span.first)
 
 
-def _with_unknown(spans: Sequence[Span], words: Sequence[Word], text: str, lookup: Lookup) -> list[Span]:
+def _with_unknown(
+    spans: Sequence[Span], words: Sequence[Word], text: str, lookup: Lookup, language: Language
+) -> list[Span]:
     """Add spans of misspelt words and of names that the map lacks."""
     covered = {n for span in spans for n in range(span.first, span.last + 1)}
     firsts_of_kinds = {span.first for span in spans if span.form == "thing" and span.match is None}
     cased = any(word.is_capital for word in words)
     result, n = list(spans), 0
     while n < len(words):
-        if n in covered or not _is_strange(words, n, text, lookup):
+        is_plain = language.table is not None and (
+            words[n].plain in language.stop or (cased and not words[n].is_capital)
+        )
+        if n in covered or is_plain or not _is_strange(words, n, text, lookup):
             n += 1
             continue
         end = n
         while end + 1 < len(words) and end + 1 not in covered and end - n < 3 and _follows(words, end, text, lookup):
+            if words[end + 1].plain in language.stop:
+                break
             end += 1
         plain = [word.owner or word.plain for word in words[n : end + 1]]
         before_kind = _is_next(end, firsts_of_kinds, words, text)
         is_name = words[n].is_capital and not _starts(words[n], words[n - 1] if n else None, text)
         is_name = is_name or (before_kind and (not cased or words[n].is_capital or words[n].begins))
+        if language.table is not None and language.table.has_capital_nouns:
+            is_name = before_kind or end > n
         span = _misspelt(n, end, plain, lookup, is_name=is_name)
         if span is not None:
             result.append(span)

@@ -18,18 +18,23 @@ _SAID_OF = _W.list("said_of_street")
 
 
 def match_street(
-    words: Sequence[Word], first: int, last: int, plain: tuple[str, ...], lookup: Lookup
+    words: Sequence[Word], first: int, last: int, plain: tuple[str, ...], lookup: Lookup, *, inflects: bool = False
 ) -> tuple[Match, float] | None:
-    """Return the streets of a name; of a short form, such as an ordinal, only next to words that go with streets."""
+    """Return the streets of a name; of a short form, such as an ordinal, only next to words that go with streets.
+
+    In a language that `inflects` names, "Mannerheimintiellä" is on Mannerheimintie.
+    """
     if len(plain) == 1 and plain[0].isdecimal():
         return None
     has_type = plain[-1] in STREET_KINDS or plain[-1] in STREET_ABBREVIATIONS
     match = lookup.street(plain)
     if match is None and has_type and len(plain) > 1 and plain[-2].isdecimal() and plain[-2].isascii():
         match = lookup.street((*plain[:-2], ordinal(int(plain[-2])), plain[-1]))
+    if match is None and inflects:
+        match = lookup.street_form(plain)
     if match is None and len(plain) == 1:
         match = lookup.street_like(plain[0])
-    if match is None or not _is_meant(words, first, last, match, has_type, lookup):
+    if match is None or not _is_meant(words, first, last, match, has_type, lookup, inflects=inflects):
         return None
     score = STREET_SCORE + WORD_SCORE * len(plain) + (TYPE_SCORE if has_type else 0.0)
     return match, score + (MEETING_SCORE if _meets_ordinal(words, first, last) else 0.0)
@@ -42,7 +47,9 @@ def _meets_ordinal(words: Sequence[Word], first: int, last: int) -> bool:
     return bool(after or before)
 
 
-def _is_meant(words: Sequence[Word], first: int, last: int, match: Match, has_type: bool, lookup: Lookup) -> bool:
+def _is_meant(
+    words: Sequence[Word], first: int, last: int, match: Match, has_type: bool, lookup: Lookup, *, inflects: bool
+) -> bool:
     plain = [word.owner or word.plain for word in words[first : last + 1]]
     is_ordinal = ORDINAL.fullmatch(plain[-1]) is not None
     is_capital = words[first].is_capital or words[first].begins
@@ -67,7 +74,7 @@ def _is_meant(words: Sequence[Word], first: int, last: int, match: Match, has_ty
             return False
         if is_common and not is_ordinal and not is_capital and before not in _LOWER_BEFORE:
             return False
-    if follower is None or has_type or is_ordinal:
+    if follower is None or has_type or is_ordinal or inflects:
         return True
     # "Waterside Park" goes on
     goes_on = follower.is_capital and follower.start - words[last].end == 1 and not follower.plain[0].isdigit()

@@ -15,6 +15,7 @@ from models.citymap.kinds.vocabulary import load_vocabulary
 from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.errors import TrainingError
+from models.language.languages.english import English
 from models.language.mentions.cue_reader import CueReader
 from models.language.mentions.lookup import Lookup
 from models.language.mentions.reader import find_mentions, is_meeting, listener_wind, mark_goal
@@ -129,7 +130,7 @@ def _example(
 ) -> KernelExample | None:
     if text.goal is None:
         return None
-    mentions = find_mentions(text.text, lookup, cues)
+    mentions = find_mentions(text.text, lookup, English(cues))
     listener_m = None if text.start is None else texts.frame.from_wgs84(*text.start)
     meets = listener_m is not None or is_meeting(text.text)
     if meets:

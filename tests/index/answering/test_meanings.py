@@ -5,7 +5,7 @@ from models.citymap.gazetteer.gazetteer import EMPTY_GAZETTEER, build_gazetteer
 from models.citymap.gazetteer.name_columns import GazetteerObject
 from models.citymap.kinds.vocabulary import load_vocabulary
 from models.errors import IndexBroken
-from models.language.mentions.cue_reader import CueReader
+from models.language.languages.english import English
 from models.language.mentions.lookup import Lookup
 from models.language.mentions.paraphrases import PARAPHRASE_TRUST
 from models.language.mentions.reader import find_mentions
@@ -37,47 +37,47 @@ def meanings(lookup, text_encoder) -> Meanings:
 
 
 @pytest.fixture(scope="module")
-def cues() -> CueReader:
-    return load_posterior().cues
+def english() -> English:
+    return English(load_posterior().cues)
 
 
-def read(text, noun, lookup, meanings, cues):
+def read(text, noun, lookup, meanings, english):
     start = text.index(noun)
-    return find_mentions(text, lookup, cues, nouns=[(start, start + len(noun))], find_paraphrase=meanings.like)
+    return find_mentions(text, lookup, english, nouns=[(start, start + len(noun))], find_paraphrase=meanings.like)
 
 
 @pytest.mark.parametrize(("noun", "thing"), [("baby shop", 0), ("municipal art museum", 1)])
-def test_paraphrases_of_nouns_and_names_are_understood(lookup, meanings, cues, noun, thing) -> None:
+def test_paraphrases_of_nouns_and_names_are_understood(lookup, meanings, english, noun, thing) -> None:
     text = f"I'm right outside the {noun}, it's on my left"
-    [mention] = read(text, noun, lookup, meanings, cues)
+    [mention] = read(text, noun, lookup, meanings, english)
     assert mention.objects.tolist() == [thing]
     assert (mention.text, mention.form, mention.is_exact) == (noun, "thing", False)
     assert mention.trust == PARAPHRASE_TRUST, "less sure than what was said"
-    assert not any(len(m.objects) for m in find_mentions(text, lookup, cues)), "neither is in the words"
+    assert not any(len(m.objects) for m in find_mentions(text, lookup, english)), "neither is in the words"
 
 
-def test_shops_are_found_without_being_told_of(lookup, meanings, cues) -> None:
+def test_shops_are_found_without_being_told_of(lookup, meanings, english) -> None:
     text = "in front of the baby shop"
-    [mention] = find_mentions(text, lookup, cues, find_paraphrase=meanings.like)
+    [mention] = find_mentions(text, lookup, english, find_paraphrase=meanings.like)
     assert (mention.text, mention.objects.tolist()) == ("baby shop", [0])
-    assert not any(len(m.objects) for m in find_mentions(text, lookup, cues))
+    assert not any(len(m.objects) for m in find_mentions(text, lookup, english))
 
 
 @pytest.mark.parametrize("noun", ["purple elephant", "padel place", "town hall", "the shop"])
-def test_what_means_nothing_of_the_map_is_left_alone(lookup, meanings, cues, noun) -> None:
+def test_what_means_nothing_of_the_map_is_left_alone(lookup, meanings, english, noun) -> None:
     text = f"I'm right outside {noun}, it's on my left"
-    assert not any(len(mention.objects) for mention in read(text, noun, lookup, meanings, cues))
+    assert not any(len(mention.objects) for mention in read(text, noun, lookup, meanings, english))
 
 
-def test_what_is_said_in_a_name_is_not_read_twice(lookup, meanings, cues) -> None:
+def test_what_is_said_in_a_name_is_not_read_twice(lookup, meanings, english) -> None:
     text = "I'm outside the Old Mill baby shop"
-    mentions = read(text, "Old Mill baby shop", lookup, meanings, cues)
-    assert [mention.text for mention in mentions] == [m.text for m in find_mentions(text, lookup, cues)]
+    mentions = read(text, "Old Mill baby shop", lookup, meanings, english)
+    assert [mention.text for mention in mentions] == [m.text for m in find_mentions(text, lookup, english)]
 
 
-def test_what_has_a_name_is_not_taken_for_another(lookup, cues) -> None:
+def test_what_has_a_name_is_not_taken_for_another(lookup, english) -> None:
     text = "I'm outside the Old Mill"
-    [mention] = find_mentions(text, lookup, cues, nouns=[(16, 24)], find_paraphrase=lambda _: ("baby", "goods", "shop"))
+    [mention] = find_mentions(text, lookup, english, nouns=[(16, 24)], find_paraphrase=lambda _: ("baby", "goods", "shop"))
     assert mention.objects.tolist() == [2]
 
 

@@ -2,6 +2,7 @@ import pytest
 
 from models.citymap.gazetteer.gazetteer import Gazetteer
 from models.citymap.kinds.vocabulary import load_vocabulary
+from models.language.languages.english import English
 from models.language.mentions.cue_reader import CueReader
 from models.language.mentions.lookup import Lookup
 from models.posterior.model import load_posterior
@@ -21,3 +22,8 @@ def lookup(town: Gazetteer) -> Lookup:
 @pytest.fixture(scope="session")
 def cues() -> CueReader:
     return load_posterior().cues
+
+
+@pytest.fixture(scope="session")
+def english(cues: CueReader) -> English:
+    return English(cues)

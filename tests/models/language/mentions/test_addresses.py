@@ -4,24 +4,24 @@ from models.language.mentions.reader import find_mentions
 
 
 @pytest.mark.parametrize("tail", ["", ", 10001 New York, USA", ", NY 10001", ", 10001", ", Gotham", ", Gotham, 10001"])
-def test_city_and_postcode_after_an_address_are_no_mentions(lookup, cues, tail) -> None:
-    (mention,) = find_mentions(f"402 West 25th Street{tail}", lookup, cues)
+def test_city_and_postcode_after_an_address_are_no_mentions(lookup, english, tail) -> None:
+    (mention,) = find_mentions(f"402 West 25th Street{tail}", lookup, english)
     assert (mention.form, mention.text, mention.is_exact) == ("address", "402 West 25th Street", True)
 
 
-def test_a_whole_name_after_an_address_is_a_mention(lookup, cues) -> None:
-    assert [m.text for m in find_mentions("402 West 25th Street, Bottino", lookup, cues)][-1] == "Bottino"
+def test_a_whole_name_after_an_address_is_a_mention(lookup, english) -> None:
+    assert [m.text for m in find_mentions("402 West 25th Street, Bottino", lookup, english)][-1] == "Bottino"
 
 
-def test_what_was_assumed_is_a_warning(lookup, cues) -> None:
-    (mention,) = find_mentions("406 West 25th Street", lookup, cues)
+def test_what_was_assumed_is_a_warning(lookup, english) -> None:
+    (mention,) = find_mentions("406 West 25th Street", lookup, english)
     assert (
         mention.warning
         == "'406 West 25th Street' is not on the map; 402 and 410 are, so a place between them is assumed"
     )
-    assert {m.form for m in find_mentions("990 West 25th Street", lookup, cues)} == {"street", "unknown"}
+    assert {m.form for m in find_mentions("990 West 25th Street", lookup, english)} == {"street", "unknown"}
 
 
-def test_the_number_is_elsewhere_than_its_street(lookup, cues) -> None:
-    forms = [(m.form, m.text) for m in find_mentions("on West 25th Street, at the door of 402", lookup, cues)]
+def test_the_number_is_elsewhere_than_its_street(lookup, english) -> None:
+    forms = [(m.form, m.text) for m in find_mentions("on West 25th Street, at the door of 402", lookup, english)]
     assert ("address", "402") in forms

@@ -6,9 +6,9 @@ from models.language.mentions.spans import correct_noun, find_spans
 from tests.models.citymap.gazetteer.made_town import called
 
 
-def spans(text: str, lookup) -> list[tuple[str, str]]:
+def spans(text: str, lookup, english) -> list[tuple[str, str]]:
     """(form, words) of what is found."""
-    words, result = find_spans(text, lookup)
+    words, result = find_spans(text, lookup, english)
     return [(span.form, text[words[span.first].start : words[span.last].end]) for span in result]
 
 
@@ -40,45 +40,45 @@ def spans(text: str, lookup) -> list[tuple[str, str]]:
         ("near 北京饭店", [("thing", "北京饭店")]),
     ],
 )
-def test_what_is_found(lookup, text, expected) -> None:
-    assert spans(text, lookup) == expected
+def test_what_is_found(lookup, english, text, expected) -> None:
+    assert spans(text, lookup, english) == expected
 
 
-def test_a_measure_is_no_street(lookup) -> None:
-    assert spans("Bottino is nearly twenty-five metres ahead", lookup) == [("thing", "Bottino")]
-    assert ("street", "twenty fifth") in spans("Bottino is nearly at twenty fifth", lookup)
+def test_a_measure_is_no_street(lookup, english) -> None:
+    assert spans("Bottino is nearly twenty-five metres ahead", lookup, english) == [("thing", "Bottino")]
+    assert ("street", "twenty fifth") in spans("Bottino is nearly at twenty fifth", lookup, english)
 
 
 @pytest.mark.parametrize("text", ["402 W 25th", "Bottino, W 25th", "the bakery W 25th"])
-def test_a_wind_before_an_ordinal_tells_of_a_street(lookup, text) -> None:
-    assert "street" in [form for form, _ in spans(text, lookup)]
+def test_a_wind_before_an_ordinal_tells_of_a_street(lookup, english, text) -> None:
+    assert "street" in [form for form, _ in spans(text, lookup, english)]
 
 
-def test_the_name_is_taken_and_not_the_kind_in_it(town, lookup) -> None:
-    _, (span,) = find_spans("by Rossi Bakery", lookup)
+def test_the_name_is_taken_and_not_the_kind_in_it(town, lookup, english) -> None:
+    _, (span,) = find_spans("by Rossi Bakery", lookup, english)
     assert called(town, span.match.objects) == {"Rossi Bakery"}
     assert span.match.is_exact
 
 
-def test_a_name_and_its_kind_are_one_thing(town, lookup) -> None:
+def test_a_name_and_its_kind_are_one_thing(town, lookup, english) -> None:
     for text in (
         "the T-Optik optician",
         "the optician, T-Optik",
         "an optician called T-Optik",
         "T-Optik, the optician",
     ):
-        _, (span,) = find_spans(text, lookup)
+        _, (span,) = find_spans(text, lookup, english)
         assert called(town, span.match.objects) == {"T-Optik"}
         assert "shop/optician" in span.kinds
 
 
-def test_a_name_across_a_full_stop_is_none(lookup) -> None:
-    assert ("thing", "London. Terrace Gardens") not in spans("In London. Terrace Gardens", lookup)
+def test_a_name_across_a_full_stop_is_none(lookup, english) -> None:
+    assert ("thing", "London. Terrace Gardens") not in spans("In London. Terrace Gardens", lookup, english)
 
 
-def test_spans_are_in_order_and_apart(lookup) -> None:
+def test_spans_are_in_order_and_apart(lookup, english) -> None:
     words, result = find_spans(
-        "Elmo on W 25th St near Joe's Coffee, the cafe at 10th Ave and 26th, Chelsea Park bench, Nowhere Inn", lookup
+        "Elmo on W 25th St near Joe's Coffee, the cafe at 10th Ave and 26th, Chelsea Park bench, Nowhere Inn", lookup, english
     )
     assert len(result) >= 7
     assert all(one.last < other.first for one, other in pairwise(result))
@@ -106,5 +106,5 @@ def test_of_nouns_that_are_as_like_the_shortest_is_meant_in_every_process(lookup
         ("by the crossing", False), ("across the crossing", False),
     ],
 )  # fmt: skip
-def test_an_ordinal_that_is_told_of_is_a_street(lookup, text, result) -> None:
-    assert ("street" in [form for form, _ in spans(text, lookup)]) is result
+def test_an_ordinal_that_is_told_of_is_a_street(lookup, english, text, result) -> None:
+    assert ("street" in [form for form, _ in spans(text, lookup, english)]) is result

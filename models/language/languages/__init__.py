@@ -1,0 +1,1 @@
+"""Languages as tables: how each says where things are; one reader for all of them."""

@@ -1,0 +1,203 @@
+"""The table of a language: its words and phrases for relations, corners, distances and corrections, and its nouns."""
+
+import re
+import tomllib
+import unicodedata
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache, cached_property
+from itertools import chain
+from pathlib import Path
+from typing import Any, Final
+
+from models.citymap.kinds.vocabulary import load_vocabulary
+from models.language.mentions.names import plain_words
+
+DIRECTORY: Final = Path(__file__).parent
+MIN_SHARED: Final = 4  # letters that an inflected word and its base form begin with
+MAX_ENDING: Final = 5  # letters of an inflected word beyond these
+MAX_DROPPED: Final = 3  # letters of a base form beyond these
+_SINGLE: Final = str.maketrans({"ß": "s", "æ": "a", "œ": "o", "ø": "o", "ł": "l", "đ": "d", "ı": "i"})  # noqa: RUF001
+_GAP: Final = r"[\s'’-]+"  # noqa: RUF001
+_PARTS: Final = ("words", "cues", "numbers", "metres", "winds", "discourse", "nouns")
+Nouns = Mapping[str, tuple[tuple[str, float], ...]]
+Table = Mapping[str, Mapping[str, Any]]
+
+
+@dataclass(frozen=True, slots=True)
+class Phrase:
+    """A phrase that may stand for a cue; `before` and `after` are its words around the thing."""
+
+    before: re.Pattern[str] | None  # ends where the thing begins
+    after: re.Pattern[str] | None  # begins where the thing ends
+    alone: re.Pattern[str] | None  # without a thing
+    ending: str = ""  # of the thing's last word
+
+    def holds(self, folded: str, start: int, end: int) -> bool:
+        """Return whether the phrase is round a thing at start..end of a folded text."""
+        if self.alone is not None or not folded[start:end].endswith(self.ending):
+            return False
+        is_before = self.before is None or self.before.search(folded, max(0, start - 80), start) is not None
+        return is_before and (self.after is None or self.after.match(folded, end) is not None)
+
+
+def fold(text: str) -> str:
+    """Return a text in lower case without accents, with as many characters."""
+    return "".join(unicodedata.normalize("NFKD", c)[:1] or c for c in text.lower().translate(_SINGLE))[: len(text)]
+
+
+class LanguageTable:
+    """The words and phrases of a language, or of several that a text mixes."""
+
+    def __init__(self, codes: tuple[str, ...]) -> None:
+        self.codes = codes
+        self._tables = [_load(code) for code in codes]
+        self.stop = frozenset(
+            plain for word in self._joined("words", "stop", " ").split() for plain in plain_words(word)
+        )
+        self.has_capital_nouns = any(table["words"].get("capital_nouns", False) for table in self._tables)
+        articles = _words(self._joined("words", "articles", " ").split())
+        self._between_words = rf"(?:{articles}{_GAP})" + "{0,3}" if articles else ""
+        self.ands, self.corners = (_pattern(self._joined("words", name, " ").split()) for name in ("and", "corner"))
+        self.between = _pattern(self._joined("words", "between", " ").split())
+        self.winds = {
+            wind: _pattern(_phrases(self._joined("winds", wind, "|")))
+            for wind in ("northeast", "northwest", "southeast", "southwest", "north", "south", "east", "west")
+        }
+        of = _words(self._joined("winds", "of", " ").split())
+        self.of = re.compile(rf"{_GAP}(?:{of})(?!\w)") if of else re.compile(r"(?!)")
+
+    @cached_property
+    def cues(self) -> dict[str, list[Phrase]]:
+        """The phrases of each cue."""
+        return {name: self.phrases("cues", name) for table in self._tables for name in table["cues"]}
+
+    @cached_property
+    def numbers(self) -> dict[str, float]:
+        """Numbers by their words."""
+        return {fold(word): float(n) for table in self._tables for word, n in table["numbers"].items()}
+
+    @cached_property
+    def metres(self) -> dict[str, float]:
+        """Metres by unit."""
+        return {fold(word): float(n) for table in self._tables for word, n in table["metres"].items()}
+
+    def phrases(self, table: str, name: str) -> list[Phrase]:
+        """Return the phrases of an entry, long ones first."""
+        phrases = sorted(_phrases(self._joined(table, name, "|")), key=len, reverse=True)
+        return [self._phrase(phrase) for phrase in phrases]
+
+    def pattern(self, table: str, name: str) -> re.Pattern[str]:
+        """Return the pattern of an entry, without its things."""
+        return _pattern(phrase.replace("~", "").strip() for phrase in _phrases(self._joined(table, name, "|")))
+
+    def _joined(self, table: str, name: str, separator: str) -> str:
+        return separator.join(str(one.get(table, {}).get(name, "")) for one in self._tables)
+
+    def _phrase(self, phrase: str) -> Phrase:
+        if "~" not in phrase:
+            return Phrase(None, None, _pattern([phrase]))
+        before, after = phrase.split("~", 1)
+        ending = re.match(r"\w*", after)
+        assert ending is not None
+        after = after[ending.end() :]
+        lead = rf"(?<!\w){_words([before])}(?:{_GAP}{self._between_words}|{_GAP})$" if before.strip() else ""
+        tail = rf"\s*(?:\w+\s+)?{_words([after])}(?!\w)" if after.strip() else ""
+        return Phrase(re.compile(lead) if lead else None, re.compile(tail) if tail else None, None, ending[0])
+
+    @cached_property
+    def everyday(self) -> frozenset[str]:
+        """Everyday words: those that are no names, and those of phrases without a wildcard."""
+        phrases = (
+            str(entry) for table in self._tables for name in ("cues", "discourse") for entry in table[name].values()
+        )
+        words = (word for phrase in phrases for word in phrase.replace("|", " ").split() if not set(word) & {"*", "~"})
+        lists = (str(table["words"][name]) for table in self._tables for name in ("and", "articles"))
+        more = (word for entry in lists for word in entry.split() if "*" not in word)
+        return self.stop | frozenset(plain for word in chain(words, more) for plain in plain_words(word))
+
+    @cached_property
+    def nouns(self) -> Nouns:
+        """The kinds of each noun, in plain words."""
+        vocabulary, nouns = load_vocabulary(), dict[str, tuple[tuple[str, float], ...]]()
+        english = vocabulary.nouns("en")
+        for code, table in zip(self.codes, self._tables, strict=True):
+            for noun, kinds in vocabulary.nouns(code).items() if code in vocabulary.languages else ():
+                nouns[" ".join(plain_words(noun))] = kinds
+            for noun, words in table["nouns"].items():
+                nouns.update((" ".join(plain_words(word)), english[noun]) for word in _phrases(words))
+        return nouns
+
+    @cached_property
+    def _by_beginning(self) -> dict[str, list[str]]:
+        beginnings: dict[str, list[str]] = {}
+        for noun in self.nouns:
+            beginnings.setdefault(noun[:MIN_SHARED], []).append(noun)
+        return beginnings
+
+    def kinds(self, words: tuple[str, ...]) -> Mapping[str, float]:
+        """Return the kinds that a noun means in any of its forms with their weights; often none."""
+        noun = " ".join(words)
+        if noun not in self.nouns:
+            near = (base for base in self._by_beginning.get(noun[:MIN_SHARED], ()) if _is_form(words, base.split(" ")))
+            noun = max(near, key=lambda base: shared_letters(noun, base), default="")
+        return dict(self.nouns.get(noun, ()))
+
+
+def is_inflected(word: str, base: str) -> bool:
+    """Return whether a word may be a form of another: it differs at the end only, and not by much."""
+    shared = shared_letters(word, base)
+    return word == base or (
+        shared >= min(MIN_SHARED, len(base))
+        and shared >= 3
+        and len(word) - shared <= MAX_ENDING
+        and len(base) - shared <= min(MAX_DROPPED, len(base) // 3)
+    )
+
+
+def _is_form(words: tuple[str, ...], base: list[str]) -> bool:
+    return len(words) == len(base) and all(map(is_inflected, words, base))
+
+
+def shared_letters(one: str, other: str) -> int:
+    """Return how many letters two words begin with in common."""
+    return next((n for n, (a, b) in enumerate(zip(one, other, strict=False)) if a != b), min(len(one), len(other)))
+
+
+def _phrases(text: str) -> list[str]:
+    return [" ".join(phrase.split()) for phrase in text.split("|") if phrase.strip()]
+
+
+def _words(phrases: Iterable[str]) -> str:
+    """Return the expression of one of several phrases; `*` stands for any ending."""
+    folded = sorted({fold(phrase).strip() for phrase in phrases if phrase.strip()}, key=len, reverse=True)
+    return "|".join(_GAP.join(_word(word) for word in re.split(r"[\s'’-]+", phrase) if word) for phrase in folded)  # noqa: RUF001
+
+
+def _word(word: str) -> str:
+    escaped = re.escape(word.removesuffix("*")).replace("ss", "ss?")
+    return escaped + r"\w*" if word.endswith("*") else escaped
+
+
+def _pattern(phrases: Iterable[str]) -> re.Pattern[str]:
+    words = _words(phrases)
+    return re.compile(rf"(?<!\w)(?:{words})(?!\w)") if words else re.compile(r"(?!)")
+
+
+@cache
+def _load(code: str) -> Table:
+    path = DIRECTORY / f"{code}.toml"
+    table = tomllib.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+    return {part: table.get(part, {}) for part in _PARTS}
+
+
+@cache
+def load_table(codes: tuple[str, ...]) -> LanguageTable:
+    """Load the table of languages, such as ("fi",)."""
+    return LanguageTable(codes)
+
+
+@cache
+def table_codes() -> frozenset[str]:
+    """Return the codes of the languages with a table."""
+    return frozenset(path.stem for path in DIRECTORY.glob("*.toml"))
