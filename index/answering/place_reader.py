@@ -20,6 +20,7 @@ from models.language.languages.detect import ENGLISH
 from models.language.languages.english import English
 from models.language.languages.tabulated import tabulated
 from models.language.measures import compass_name, distance_in_text, overlaps
+from models.language.mentions.addresses import without_city
 from models.language.mentions.codes.reader import CodeReader
 from models.language.mentions.cue_reader import CueReader
 from models.language.mentions.lookup import Lookup
@@ -63,6 +64,10 @@ class PlaceReader:
         self._lookup = Lookup(gazetteer, load_vocabulary(), text_encoder.is_everyday, names)
         self._codes = None if frame is None else CodeReader(self._lookup, frame, centers_m)
         self._cache: LRUCache[tuple[Hashable, ...], list[Mention]] = LRUCache(CACHE_BYTES, _memory_bytes)
+
+    def without_city(self, description: str) -> str:
+        """Return a description without the city and country at its end."""
+        return without_city(description, self._lookup)
 
     def read(
         self, description: str, codes: tuple[str, ...], nouns: Sequence[tuple[int, int]] = (), *, to_listener: bool

@@ -2,13 +2,15 @@
 
 import re
 from collections.abc import Sequence
-from itertools import pairwise
 
 from models.errors import DescriptionError
 
 # A sentence ends at . ! ? ; or a line break; a dot inside a number or an abbreviation's letter does not end one.
 _BREAK = re.compile(r"(?<=[.!?;。！？])(?<!\b\w\.)(?=\s|$)|[\r\n]+")  # noqa: RUF001  # Chinese and Japanese too
 _BULLET = re.compile(r"^[ \t]*(?:[-*•–—·]+|\(?\d{1,2}[.)])[ \t]+", re.M)  # noqa: RUF001  # a dash too
+_WORD = re.compile(r"\w+")
+_CLOSING = re.compile(r"[.!?]")
+MIN_REPEATED_WORDS = 3  # "bank bank" is not said twice
 _HAS_WORD = re.compile(r"\w")
 _SEMICOLON = re.compile(r";(?=\s|$)")
 _SENTENCE_ENDS = (".", "!", "?", ";", ":")
@@ -31,15 +33,20 @@ def split_hints(description: str) -> tuple[str, ...]:
 
 def without_repetition(description: str) -> str:
     """Return a description that is one passage said several times as that passage; any other as it is."""
-    breaks = [0, *(match.end() for match in _BREAK.finditer(description)), len(description)]
-    parts = [(end, description[start:end]) for start, end in pairwise(breaks)]
-    ends = [end for end, part in parts if _HAS_WORD.search(part)]
-    sentences = [" ".join(part.lower().split()) for _, part in parts if _HAS_WORD.search(part)]
-    count = len(sentences)
-    for length in range(1, count // 2 + 1):
-        if count % length == 0 and sentences == sentences[:length] * (count // length):
-            return description[: ends[length - 1]].rstrip()
+    words = [(match[0].lower(), match.end()) for match in _WORD.finditer(description)]
+    plain = [word for word, _ in words]
+    count = len(words)
+    for length in range(MIN_REPEATED_WORDS, count // 2 + 1):
+        if count % length == 0 and plain == plain[:length] * (count // length):
+            mark = _CLOSING.match(description, words[length - 1][1])
+            return description[: mark.end() if mark else words[length - 1][1]]
     return description
+
+
+def without_capitals(description: str) -> str:
+    """Return a description that is all in capital letters in lower case; any other as it is."""
+    lower = description.lower()
+    return lower if description.isupper() and len(lower) == len(description) else description
 
 
 def locate_spans(description: str, text: str, spans: Sequence[tuple[int, int]]) -> list[tuple[int, int] | None]:

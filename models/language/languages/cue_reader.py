@@ -124,20 +124,28 @@ class TableCueReader:
         """
         pairs: list[tuple[int, str]] = []
         carried: list[str] = []  # cues of the clause before, where its last part was a thing
+        pending: list[str] = []  # cues of clauses without a thing that are about the next one: "straight on, 30 m, X"
         last = -1  # the mention before
         for start, end, is_joined in self._clauses(folded, taken):
             things = [n for n, (a, _) in enumerate(taken) if start <= a < end]
             phrases = [one for one in said if start <= one.start < end]
             if not phrases:
-                if is_joined and carried:
+                if things and pending:
+                    pairs += [(things[0], cue) for cue in pending]
+                    pending = []
+                elif is_joined and carried:
                     pairs += [(n, cue) for n in things for cue in carried]
                 last = things[-1] if things else last
                 continue
             if not things:
-                if last >= 0 and not any(n == last and cue in EGO_DEG for n, cue in pairs):
-                    pairs += [(last, one.cue) for one in phrases]
+                cues = [one.cue for one in phrases]
+                if last >= 0 and not is_joined and not any(n == last and cue in EGO_DEG for n, cue in pairs):
+                    pairs += [(last, cue) for cue in cues]
+                else:
+                    pending = cues
                 carried = []
                 continue
+            pending = []
             is_forward = phrases[0].start < taken[things[0]][0]
             groups: dict[int, list[str]] = {n: [] for n in things}
             for one in phrases:

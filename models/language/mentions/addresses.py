@@ -21,6 +21,7 @@ _NAME = r"[^\W\d_a-z][\w'’.-]*(?:[ -](?:(?:am|an|der|de|do|da|la|le|of|upon)[ 
 _TAIL = re.compile(
     rf"(?:\s*,\s*(?:{_CODE}\s*)?(?:{_NAME}(?:\s+{_CODE})?)?|\s+{_CODE}(?:\s+{_NAME})?)(?=\s*(?:[,.;!?)\n]|$))"
 )
+_CITY = re.compile(rf",\s*{_NAME}\s*,\s*(?P<country>{_NAME}?)(?P<end>[\s.!]*)$")
 _HAS_CODE = re.compile(_CODE)
 
 
@@ -121,6 +122,15 @@ def _address_of_place(text: str, words: Sequence[Word], lookup: Lookup) -> Menti
     if number is None or match is None or not match.match.numbers:
         return None
     return _mention(text, min(words[0].start, number.start), max(words[-1].end, number.end), match)
+
+
+def without_city(text: str, lookup: Lookup) -> str:
+    """Return a text without the city and country at its end, which tell nothing: ", Helsinki, Finland"."""
+    tail = _CITY.search(text)
+    if tail is None or not text[: tail.start()].strip():
+        return text
+    last = plain_words(tail["country"])
+    return text if lookup.is_name(last) or lookup.street(last) is not None else text[: tail.start()] + tail["end"]
 
 
 def _without_tails(mentions: Iterable[Mention], text: str) -> list[Mention]:

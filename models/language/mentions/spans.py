@@ -241,7 +241,8 @@ def _with_unknown(
             continue
         end = n
         while end + 1 < len(words) and end + 1 not in covered and end - n < 3 and _follows(words, end, text, lookup):
-            if words[end + 1].plain in language.stop:
+            is_end = cased and language.table is not None and not words[end + 1].is_capital
+            if is_end or words[end + 1].plain in language.stop:
                 break
             end += 1
         plain = [word.owner or word.plain for word in words[n : end + 1]]

@@ -5,7 +5,7 @@ import pytest
 from models.citymap.templates import ON_TOP_TEMPLATES, TEMPLATES, parse_hint, render_hint
 from models.citymap.types import DIRECTIONS, Hint
 from models.errors import DescriptionError
-from models.language.sentences import locate_spans, split_for_reader, split_hints, without_repetition
+from models.language.sentences import locate_spans, split_for_reader, split_hints, without_capitals, without_repetition
 
 
 @pytest.mark.parametrize(
@@ -108,3 +108,14 @@ def test_a_list_with_wide_bullets_does_not_lose_its_place() -> None:
 def test_a_text_said_several_times_is_said_once(text, times) -> None:
     assert without_repetition(" ".join([text] * times)) == text
     assert without_repetition(f"{text} {text} A pond.") == f"{text} {text} A pond."
+
+
+def test_a_passage_without_full_stops_that_is_repeated_is_read_once() -> None:
+    text = "by the bank on Main Street, a tree on my left"
+    assert without_repetition(" ".join([text] * 3)) == text
+    assert without_repetition("no no") == "no no"
+
+
+def test_a_text_in_capitals_is_read_like_one_without() -> None:
+    assert without_capitals("BY THE BANK!") == "by the bank!"
+    assert without_capitals("By the BANK") == "By the BANK"

@@ -1,5 +1,6 @@
 import pytest
 
+from models.language.mentions.addresses import without_city
 from models.language.mentions.reader import find_mentions
 
 
@@ -25,3 +26,9 @@ def test_what_was_assumed_is_a_warning(lookup, english) -> None:
 def test_the_number_is_elsewhere_than_its_street(lookup, english) -> None:
     forms = [(m.form, m.text) for m in find_mentions("on West 25th Street, at the door of 402", lookup, english)]
     assert ("address", "402") in forms
+
+
+def test_the_city_and_country_at_the_end_are_left_out(lookup) -> None:
+    assert without_city("next to Bottino, New York, USA", lookup) == "next to Bottino"
+    assert without_city("next to Elmo, Rossi Bakery, Bottino", lookup) == "next to Elmo, Rossi Bakery, Bottino"
+    assert without_city("Helsinki, Finland", lookup) == "Helsinki, Finland"
