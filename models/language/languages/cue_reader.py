@@ -81,9 +81,16 @@ class TableCueReader:
         relations: list[Relation] = ["seen"] * len(mentions)
         taken = [(start, end) for start, end, _ in mentions]
         angles: list[list[float]] = [[] for _ in mentions]
+        used = list(taken)
+        is_on = False  # whether a street was said to be where the speaker is
         for n, (start, end, form) in enumerate(mentions):
-            relations[n] = self._relation(folded, start, end) or ("inside" if form == "street" else "seen")
-        said = self._alone(folded, taken)
+            relation = self._relation(folded, start, end, taken)
+            if relation is not None:
+                relations[n] = relation[0]
+                used.append(relation[1])
+            elif form == "street":
+                relations[n], is_on = "near" if is_on else "inside", True
+        said = self._alone(folded, used)
         for n, cue in self._matched(folded, taken, said):
             if cue in EGO_DEG:
                 angles[n].append(EGO_DEG[cue])
@@ -93,12 +100,25 @@ class TableCueReader:
                 relations[n] = cue  # type: ignore[call-overload]
         return [_cue(degrees, relation) for degrees, relation in zip(angles, relations, strict=True)]
 
-    def _relation(self, folded: str, start: int, end: int) -> Relation | None:
-        """Return the relation of the phrase round a thing."""
+    def phrase_spans(self, text: str) -> list[tuple[int, int]]:
+        """Return the start and end of the phrases without a thing, and of distances."""
+        said = [(one.start, one.end) for one in self._alone(fold(text), ())]
+        return [*said, *((measure.start, measure.end) for measure in self.find_measures(text))]
+
+    def _relation(
+        self, folded: str, start: int, end: int, taken: Sequence[tuple[int, int]]
+    ) -> tuple[Relation, tuple[int, int]] | None:
+        """Return the relation of the phrase round a thing, with the phrase's start and end; long phrases first."""
+        best: tuple[Relation, tuple[int, int]] | None = None
         for name, phrases in self._table.cues.items():
-            if name in RELATIONS and any(phrase.holds(folded, start, end) for phrase in phrases):
-                return name  # type: ignore[return-value]
-        return None
+            for phrase in phrases if name in RELATIONS else ():
+                span = phrase.around(folded, start, end)
+                others = [other for other in taken if other != (start, end)]
+                if span is None or any(a < span[1] and span[0] < b for a, b in others):
+                    continue
+                if best is None or span[1] - span[0] > best[1][1] - best[1][0]:
+                    best = name, span  # type: ignore[assignment]
+        return best
 
     def _alone(self, folded: str, taken: Sequence[tuple[int, int]]) -> list[_Said]:
         """Return the phrases without a thing, outside the mentions; of overlapping ones the longest."""
@@ -138,6 +158,9 @@ class TableCueReader:
                 last = things[-1] if things else last
                 continue
             if not things:
+                if self._is_about_another(folded, start, end, phrases):
+                    carried = []
+                    continue
                 cues = [one.cue for one in phrases]
                 if last >= 0 and not is_joined and not any(n == last and cue in EGO_DEG for n, cue in pairs):
                     pairs += [(last, cue) for cue in cues]
@@ -167,6 +190,15 @@ class TableCueReader:
                 pairs += [(n, cue) for cue in current]
             carried, last = (current if is_forward else []), things[-1]
         return pairs
+
+    def _is_about_another(self, folded: str, start: int, end: int, phrases: Sequence[_Said]) -> bool:
+        """Return whether a clause without a known thing has a word for another one."""
+        for one in phrases:
+            folded = folded[: one.start] + " " * (one.end - one.start) + folded[one.end :]
+        return any(
+            len(word) > 3 and word not in self._table.stop and not word.isdecimal()
+            for word in re.findall(r"\w+", folded[start:end])
+        )
 
     def _clauses(self, folded: str, taken: Sequence[tuple[int, int]]) -> list[tuple[int, int, bool]]:
         """Return the clauses of a text; the third says whether "and" joins one to the clause before."""

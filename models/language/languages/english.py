@@ -35,6 +35,10 @@ class English:
         """Return the cue of each mention (start, end, form)."""
         return self._cues.read(text, mentions)
 
+    def cue_spans(self, text: str) -> list[tuple[int, int]]:
+        """Return nothing: the trained reader knows which words are no things."""
+        return []
+
     def find_measures(self, text: str) -> Sequence[Measure]:
         """Return the distances of a text."""
         return find_measures(text)

@@ -15,7 +15,8 @@ from models.language.mentions.names import plain_words
 
 DIRECTORY: Final = Path(__file__).parent
 MIN_SHARED: Final = 4  # letters that an inflected word and its base form begin with
-MAX_ENDING: Final = 5  # letters of an inflected word beyond these
+MAX_ENDING, MAX_LONG_ENDING = 6, 8  # letters of an inflected word beyond these, and beyond many
+MIN_SHORTENED: Final = 6  # letters of a word that may be a shorter form of another
 MAX_DROPPED: Final = 3  # letters of a base form beyond these
 _SINGLE: Final = str.maketrans({"ß": "s", "æ": "a", "œ": "o", "ø": "o", "ł": "l", "đ": "d", "ı": "i"})  # noqa: RUF001
 _GAP: Final = r"[\s'’-]+"  # noqa: RUF001
@@ -33,12 +34,15 @@ class Phrase:
     alone: re.Pattern[str] | None  # without a thing
     ending: str = ""  # of the thing's last word
 
-    def holds(self, folded: str, start: int, end: int) -> bool:
-        """Return whether the phrase is round a thing at start..end of a folded text."""
+    def around(self, folded: str, start: int, end: int) -> tuple[int, int] | None:
+        """Return the start and end of the phrase and the thing at start..end of a folded text; None if it is not there."""
         if self.alone is not None or not folded[start:end].endswith(self.ending):
-            return False
-        is_before = self.before is None or self.before.search(folded, max(0, start - 80), start) is not None
-        return is_before and (self.after is None or self.after.match(folded, end) is not None)
+            return None
+        before = None if self.before is None else self.before.search(folded, max(0, start - 80), start)
+        after = None if self.after is None else self.after.match(folded, end)
+        if (self.before is not None and before is None) or (self.after is not None and after is None):
+            return None
+        return (before.start() if before else start, after.end() if after else end)
 
 
 def fold(text: str) -> str:
@@ -56,6 +60,8 @@ class LanguageTable:
             plain for word in self._joined("words", "stop", " ").split() for plain in plain_words(word)
         )
         self.has_capital_nouns = any(table["words"].get("capital_nouns", False) for table in self._tables)
+        lists = (self._joined("words", name, " ").split() for name in ("and", "corner", "between", "articles"))
+        self.stop |= {plain for words in lists for word in words if "*" not in word for plain in plain_words(word)}
         articles = _words(self._joined("words", "articles", " ").split())
         self._between_words = rf"(?:{articles}{_GAP})" + "{0,3}" if articles else ""
         self.ands, self.corners = (_pattern(self._joined("words", name, " ").split()) for name in ("and", "corner"))
@@ -144,15 +150,19 @@ class LanguageTable:
         return dict(self.nouns.get(noun, ()))
 
 
-def is_inflected(word: str, base: str) -> bool:
-    """Return whether a word may be a form of another: it differs at the end only, and not by much."""
+def is_inflected(word: str, base: str, *, loosely: bool = False) -> bool:
+    """Return whether a word may be a form of another: it differs at the end only, and not by much.
+
+    Next to another word of a name it may do so `loosely`: "kadulla" of "katu".
+    """
     shared = shared_letters(word, base)
-    return word == base or (
-        shared >= min(MIN_SHARED, len(base))
-        and shared >= 3
-        and len(word) - shared <= MAX_ENDING
-        and len(base) - shared <= min(MAX_DROPPED, len(base) // 3)
-    )
+    dropped, added = len(base) - shared, len(word) - shared
+    if dropped and not added and len(word) < MIN_SHORTENED:
+        return False
+    if word == base or (loosely and shared >= len(base) // 2 and shared > 1 and added <= MAX_ENDING):
+        return True
+    is_near = dropped <= min(MAX_DROPPED, len(base) // 3) and added <= (MAX_LONG_ENDING if shared >= 10 else MAX_ENDING)
+    return is_near and shared >= max(3, min(MIN_SHARED, len(base)))
 
 
 def _is_form(words: tuple[str, ...], base: list[str]) -> bool:

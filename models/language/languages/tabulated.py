@@ -33,6 +33,10 @@ class Tabulated:
         """Return the cue of each mention (start, end, form)."""
         return self._cues.read(text, mentions)
 
+    def cue_spans(self, text: str) -> list[tuple[int, int]]:
+        """Return the start and end of the phrases that are no things: "on the left"."""
+        return self._cues.phrase_spans(text)
+
     def find_measures(self, text: str) -> Sequence[Measure]:
         """Return the distances of a text."""
         return self._cues.find_measures(text)
@@ -86,7 +90,7 @@ class Tabulated:
     def is_denied(self, text: str, start: int, end: int) -> bool:
         """Return whether a text says that the speaker is not at a thing."""
         folded = fold(text)
-        return any(phrase.holds(folded, start, end) for phrase in self._denied)
+        return any(phrase.around(folded, start, end) is not None for phrase in self._denied)
 
     def clause_starts(self, text: str) -> list[int]:
         """Return the starts of the clauses that may be about different times."""

@@ -16,7 +16,7 @@ from models.citymap.gazetteer.name_columns import STREET_KIND
 from models.citymap.kinds.vocabulary import Vocabulary
 from models.citymap.points import Ints
 from models.citymap.types import Floats
-from models.language.languages.table import MIN_SHARED, LanguageTable, is_inflected, shared_letters
+from models.language.languages.table import LanguageTable, is_inflected, shared_letters
 from models.language.mentions.abbreviations import MAX_READINGS, written_out
 from models.language.mentions.house_numbers import NumberMatch, first_value, match_number, plain_number
 from models.language.mentions.name_table import NUMBER_SEPARATOR, NameTable
@@ -29,6 +29,7 @@ MIN_MISSPELT_CHARACTERS: Final = 5
 MIN_PART_SHARE: Final = 0.35  # of the word weights of a name that a part must have
 PART_WEIGHT: Final = 0.5  # weight of a partial match next to exact ones
 MAX_CACHED_PHRASES: Final = 4096  # with their kinds, and with their streets
+SHORT_BEGINNING: Final = 2  # letters by which the words of names are grouped
 MAX_BASES: Final = 4  # base forms of a word
 FORM_TRUST: Final = 0.9  # of a name in another case
 COMPOUND_KINDS: Final = (
@@ -117,7 +118,7 @@ class Lookup:
 
     def street_form(self, words: Sequence[str]) -> Match | None:
         """Return the streets of a name in another case, or cut short: "Mannerheimintiellä", "Memhard-"."""
-        for reading in _readings(words, self._table.street_words, self._street_beginnings):
+        for reading in _readings(words, self._table.street_words, self._street_beginnings, loosely=len(words) > 1):
             match = self.street(reading)
             if match is not None:
                 return match
@@ -305,17 +306,17 @@ def _by_beginning(words: Iterable[str]) -> Mapping[str, list[str]]:
     beginnings: dict[str, list[str]] = {}
     for word in words:
         if not word[0].isdecimal():
-            beginnings.setdefault(word[:MIN_SHARED], []).append(word)
+            beginnings.setdefault(word[:SHORT_BEGINNING], []).append(word)
     return beginnings
 
 
 def _readings(
-    words: Sequence[str], known: Container[str], beginnings: Mapping[str, list[str]]
+    words: Sequence[str], known: Container[str], beginnings: Mapping[str, list[str]], *, loosely: bool = False
 ) -> Iterator[tuple[str, ...]]:
     """Yield the names of which words may be a form, likely ones first."""
     options = []
     for word in words:
-        near = [base for base in beginnings.get(word[:MIN_SHARED], ()) if _is_form(word, base)]
+        near = [base for base in beginnings.get(word[:SHORT_BEGINNING], ()) if _is_form(word, base, loosely)]
         near.sort(key=lambda base: (-shared_letters(word, base), len(base)))
         options.append([word] if word in known or not near else near[:MAX_BASES])
     for reading in islice(product(*options), MAX_READINGS):
@@ -323,8 +324,8 @@ def _readings(
             yield reading
 
 
-def _is_form(word: str, base: str) -> bool:
-    return is_inflected(word, base) or any(base == word + kind for kind in COMPOUND_KINDS)
+def _is_form(word: str, base: str, loosely: bool) -> bool:
+    return is_inflected(word, base, loosely=loosely) or any(base == word + kind for kind in COMPOUND_KINDS)
 
 
 def _singulars(word: str) -> list[str]:

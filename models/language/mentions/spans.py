@@ -59,18 +59,23 @@ def find_spans(text: str, lookup: Lookup, language: Language) -> tuple[list[Word
     strange = [word.plain for word in words if lookup.is_strange(word.plain)] if language.table is None else []
     mended = {word: correct_noun(word, lookup) for word in strange}
     plain = tuple(word.plain for word in words)
+    phrases = language.cue_spans(text)
+    in_phrase = [any(a <= word.start and word.end <= b for a, b in phrases) for word in words]
     ends = [_ends(word, text[word.end : after.start]) for word, after in pairwise(words)] + [True]
     spans: list[Span] = []
     for first in range(len(words)):
         for last in range(first, min(first + MAX_NAME_WORDS, len(words))):
+            if all(in_phrase[first : last + 1]):
+                continue
             spans += _spans_at(words, first, last, plain[first : last + 1], mended, lookup, language, cased=cased)
             if ends[last]:
                 break
     measures = find_measures(text)  # "twenty-five" metres are not 25th Street
     spans = [s for s in spans if not (s.form == "street" and any(m.contains(words[s.last]) for m in measures))]
-    chosen = _with_unknown(_chosen(spans, words), words, text, lookup, language)
+    chosen = _with_unknown(_chosen(spans, words), words, in_phrase, text, lookup, language)
     return words, [
-        attach_objects(span, lookup) for span in _joined(_as_whole_names(chosen, words, text, lookup), words, text)
+        attach_objects(span, lookup)
+        for span in _joined(_as_whole_names(chosen, words, text, lookup), words, text, language)
     ]
 
 
@@ -225,7 +230,12 @@ def _chosen(spans: Sequence[Span], words: Sequence[Word]) -> list[Span]:
 
 
 def _with_unknown(
-    spans: Sequence[Span], words: Sequence[Word], text: str, lookup: Lookup, language: Language
+    spans: Sequence[Span],
+    words: Sequence[Word],
+    in_phrase: Sequence[bool],
+    text: str,
+    lookup: Lookup,
+    language: Language,
 ) -> list[Span]:
     """Add spans of misspelt words and of names that the map lacks."""
     covered = {n for span in spans for n in range(span.first, span.last + 1)}
@@ -236,21 +246,21 @@ def _with_unknown(
         is_plain = language.table is not None and (
             words[n].plain in language.stop or (cased and not words[n].is_capital)
         )
-        if n in covered or is_plain or not _is_strange(words, n, text, lookup):
+        if n in covered or in_phrase[n] or is_plain or not _is_strange(words, n, text, lookup):
             n += 1
             continue
         end = n
         while end + 1 < len(words) and end + 1 not in covered and end - n < 3 and _follows(words, end, text, lookup):
             is_end = cased and language.table is not None and not words[end + 1].is_capital
-            if is_end or words[end + 1].plain in language.stop:
+            if is_end or in_phrase[end + 1] or words[end + 1].plain in language.stop:
                 break
             end += 1
         plain = [word.owner or word.plain for word in words[n : end + 1]]
         before_kind = _is_next(end, firsts_of_kinds, words, text)
         is_name = words[n].is_capital and not _starts(words[n], words[n - 1] if n else None, text)
         is_name = is_name or (before_kind and (not cased or words[n].is_capital or words[n].begins))
-        if language.table is not None and language.table.has_capital_nouns:
-            is_name = before_kind or end > n
+        if language.table is not None:
+            is_name = is_name and cased and (before_kind or end > n or not language.table.has_capital_nouns)
         span = _misspelt(n, end, plain, lookup, is_name=is_name)
         if span is not None:
             result.append(span)
@@ -316,15 +326,16 @@ def _as_whole_names(spans: Sequence[Span], words: Sequence[Word], text: str, loo
     return result
 
 
-def _joined(spans: Sequence[Span], words: Sequence[Word], text: str) -> list[Span]:
+def _joined(spans: Sequence[Span], words: Sequence[Word], text: str, language: Language) -> list[Span]:
     """Join neighbouring names and kinds of one thing: "Bread & Butter deli", "the optician, T-Optik"."""
     joined: list[Span] = []
     for span in spans:
         last = joined[-1] if joined else None
-        if last is None or last.form not in ("thing", "unknown") or span.form not in ("thing", "unknown"):
+        between = text[words[last.last].end : words[span.first].start].lower() if last else ""
+        is_list = language.table is not None and "," in between
+        if last is None or is_list or {last.form, span.form} - {"thing", "unknown"}:
             joined.append(span)
             continue
-        between = text[words[last.last].end : words[span.first].start].lower()
         both_kinds = last.form == span.form == "thing" and last.match is None and span.match is None
         close = between.strip() == "" or _APPOSED.fullmatch(between) is not None
         named_kind = last.form == "unknown" or last.match is not None
