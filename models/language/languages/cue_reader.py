@@ -7,7 +7,7 @@ from typing import Final, get_args
 
 import numpy as np
 
-from models.language.languages.table import LanguageTable, fold
+from models.language.languages.table import LanguageTable, fold, lower
 from models.language.measures import Bearing, Measure
 from models.language.mentions.cue_reader import MentionSpan, ReadCue
 from models.language.mentions.cues import Relation
@@ -91,7 +91,7 @@ class TableCueReader:
             elif form == "street":
                 relations[n], is_on = "near" if is_on else "inside", True
         said = self._alone(folded, used)
-        for n, cue in self._matched(folded, taken, said):
+        for n, cue in self._matched(text, taken, said):
             if cue in EGO_DEG:
                 angles[n].append(EGO_DEG[cue])
                 if mentions[n][2] == "street" and relations[n] == "inside":
@@ -136,17 +136,18 @@ class TableCueReader:
                 chosen.append(one)
         return sorted(chosen, key=lambda one: one.start)
 
-    def _matched(self, folded: str, taken: Sequence[tuple[int, int]], said: Sequence[_Said]) -> list[tuple[int, str]]:
+    def _matched(self, text: str, taken: Sequence[tuple[int, int]], said: Sequence[_Said]) -> list[tuple[int, str]]:
         """Return which mention each phrase is about, with its cue; one of a list may be about several.
 
         In a clause that begins with a phrase, phrases are about what follows ("left the bank, right the shop"), else
         about what precedes; one in a clause without a thing is about the thing before ("the bank, it is on my left").
         """
+        folded = fold(text)
         pairs: list[tuple[int, str]] = []
         carried: list[str] = []  # cues of the clause before, where its last part was a thing
         pending: list[str] = []  # cues of clauses without a thing that are about the next one: "straight on, 30 m, X"
         last = -1  # the mention before
-        for start, end, is_joined in self._clauses(folded, taken):
+        for start, end, is_joined in self._clauses(text, taken):
             things = [n for n, (a, _) in enumerate(taken) if start <= a < end]
             phrases = [one for one in said if start <= one.start < end]
             if not phrases:
@@ -200,16 +201,16 @@ class TableCueReader:
             for word in re.findall(r"\w+", folded[start:end])
         )
 
-    def _clauses(self, folded: str, taken: Sequence[tuple[int, int]]) -> list[tuple[int, int, bool]]:
+    def _clauses(self, text: str, taken: Sequence[tuple[int, int]]) -> list[tuple[int, int, bool]]:
         """Return the clauses of a text; the third says whether "and" joins one to the clause before."""
-        breaks = [(match.start(), match.end(), False) for match in _PAUSE.finditer(folded)]
-        breaks += [(match.start(), match.end(), True) for match in self._table.ands.finditer(folded)]
+        breaks = [(match.start(), match.end(), False) for match in _PAUSE.finditer(text)]
+        breaks += [(match.start(), match.end(), True) for match in self._table.ands.finditer(lower(text))]
         breaks = sorted(b for b in breaks if not any(start < b[1] and b[0] < end for start, end in taken))
         clauses, start, is_joined = [], 0, False
         for begin, end, joins in breaks:
             clauses.append((start, begin, is_joined))
             start, is_joined = end, joins
-        return [*clauses, (start, len(folded), is_joined)]
+        return [*clauses, (start, len(text), is_joined)]
 
 
 def _adjoins(folded: str, one: _Said, phrases: Sequence[_Said]) -> bool:

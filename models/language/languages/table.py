@@ -3,7 +3,7 @@
 import re
 import tomllib
 import unicodedata
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import chain
@@ -18,9 +18,9 @@ MIN_SHARED: Final = 4  # letters that an inflected word and its base form begin 
 MAX_ENDING, MAX_LONG_ENDING = 6, 8  # letters of an inflected word beyond these, and beyond many
 MIN_SHORTENED: Final = 6  # letters of a word that may be a shorter form of another
 MAX_DROPPED: Final = 3  # letters of a base form beyond these
-_SINGLE: Final = str.maketrans({"ß": "s", "æ": "a", "œ": "o", "ø": "o", "ł": "l", "đ": "d", "ı": "i"})  # noqa: RUF001
+_SINGLE: Final = str.maketrans({"ß": "s", "æ": "a", "œ": "o", "ø": "o", "ł": "l", "đ": "d", "ı": "i", "İ": "i"})  # noqa: RUF001
 _GAP: Final = r"[\s'’-]+"  # noqa: RUF001
-_PARTS: Final = ("words", "cues", "numbers", "metres", "winds", "discourse", "nouns")
+_PARTS: Final = ("words", "cues", "numbers", "metres", "winds", "discourse", "nouns", "ordinals", "streets")
 Nouns = Mapping[str, tuple[tuple[str, float], ...]]
 Table = Mapping[str, Mapping[str, Any]]
 
@@ -35,7 +35,7 @@ class Phrase:
     ending: str = ""  # of the thing's last word
 
     def around(self, folded: str, start: int, end: int) -> tuple[int, int] | None:
-        """Return the start and end of the phrase and the thing at start..end of a folded text; None if it is not there."""
+        """Return the span of the phrase and the thing at start..end of a folded text; None if it is not there."""
         if self.alone is not None or not folded[start:end].endswith(self.ending):
             return None
         before = None if self.before is None else self.before.search(folded, max(0, start - 80), start)
@@ -45,9 +45,16 @@ class Phrase:
         return (before.start() if before else start, after.end() if after else end)
 
 
+def lower(text: str) -> str:
+    """Return a text in lower case, with as many characters."""
+    return text.replace("İ", "i").lower()[: len(text)]
+
+
 def fold(text: str) -> str:
     """Return a text in lower case without accents, with as many characters."""
-    return "".join(unicodedata.normalize("NFKD", c)[:1] or c for c in text.lower().translate(_SINGLE))[: len(text)]
+    return "".join(
+        unicodedata.normalize("NFKD", c)[:1] or c for c in text.translate(_SINGLE).lower().translate(_SINGLE)
+    )[: len(text)]
 
 
 class LanguageTable:
@@ -63,8 +70,9 @@ class LanguageTable:
         lists = (self._joined("words", name, " ").split() for name in ("and", "corner", "between", "articles"))
         self.stop |= {plain for words in lists for word in words if "*" not in word for plain in plain_words(word)}
         articles = _words(self._joined("words", "articles", " ").split())
-        self._between_words = rf"(?:{articles}{_GAP})" + "{0,3}" if articles else ""
-        self.ands, self.corners = (_pattern(self._joined("words", name, " ").split()) for name in ("and", "corner"))
+        self._between_words = rf"(?:(?:{articles}){_GAP})" + "{0,3}" if articles else ""
+        self.ands = _pattern(self._joined("words", "and", " ").split(), lower)  # Italian "e" is "and", "è" is "is"
+        self.corners = _pattern(self._joined("words", "corner", " ").split())
         self.between = _pattern(self._joined("words", "between", " ").split())
         self.winds = {
             wind: _pattern(_phrases(self._joined("winds", wind, "|")))
@@ -82,6 +90,21 @@ class LanguageTable:
     def numbers(self) -> dict[str, float]:
         """Numbers by their words."""
         return {fold(word): float(n) for table in self._tables for word, n in table["numbers"].items()}
+
+    @cached_property
+    def ordinals(self) -> dict[str, int]:
+        """The numbers of streets by their words: "Quinta" is the fifth."""
+        return {fold(word): int(n) for table in self._tables for word, n in table["ordinals"].items()}
+
+    @cached_property
+    def street_types(self) -> dict[str, str]:
+        """The English kind of a numbered street by its words: "calle" 41 is 41st Street."""
+        return {
+            fold(word): kind
+            for table in self._tables
+            for kind, words in table["streets"].items()
+            for word in words.split()
+        }
 
     @cached_property
     def metres(self) -> dict[str, float]:
@@ -109,7 +132,7 @@ class LanguageTable:
         after = after[ending.end() :]
         lead = rf"(?<!\w){_words([before])}(?:{_GAP}{self._between_words}|{_GAP})$" if before.strip() else ""
         tail = rf"\s*(?:\w+\s+)?{_words([after])}(?!\w)" if after.strip() else ""
-        return Phrase(re.compile(lead) if lead else None, re.compile(tail) if tail else None, None, ending[0])
+        return Phrase(re.compile(lead) if lead else None, re.compile(tail) if tail else None, None, fold(ending[0]))
 
     @cached_property
     def everyday(self) -> frozenset[str]:
@@ -141,10 +164,10 @@ class LanguageTable:
             beginnings.setdefault(noun[:MIN_SHARED], []).append(noun)
         return beginnings
 
-    def kinds(self, words: tuple[str, ...]) -> Mapping[str, float]:
-        """Return the kinds that a noun means in any of its forms with their weights; often none."""
+    def kinds(self, words: tuple[str, ...], *, inflects: bool = True) -> Mapping[str, float]:
+        """Return the kinds that a noun means, in any of its forms if it `inflects`, with their weights; often none."""
         noun = " ".join(words)
-        if noun not in self.nouns:
+        if noun not in self.nouns and inflects:
             near = (base for base in self._by_beginning.get(noun[:MIN_SHARED], ()) if _is_form(words, base.split(" ")))
             noun = max(near, key=lambda base: shared_letters(noun, base), default="")
         return dict(self.nouns.get(noun, ()))
@@ -175,10 +198,10 @@ def shared_letters(one: str, other: str) -> int:
 
 
 def _phrases(text: str) -> list[str]:
-    return [" ".join(phrase.split()) for phrase in text.split("|") if phrase.strip()]
+    return [" ".join(phrase.split()) for phrase in re.split(r"[|\n]", text) if phrase.strip()]
 
 
-def _words(phrases: Iterable[str]) -> str:
+def _words(phrases: Iterable[str], fold: Callable[[str], str] = fold) -> str:
     """Return the expression of one of several phrases; `*` stands for any ending."""
     folded = sorted({fold(phrase).strip() for phrase in phrases if phrase.strip()}, key=len, reverse=True)
     return "|".join(_GAP.join(_word(word) for word in re.split(r"[\s'’-]+", phrase) if word) for phrase in folded)  # noqa: RUF001
@@ -189,8 +212,8 @@ def _word(word: str) -> str:
     return escaped + r"\w*" if word.endswith("*") else escaped
 
 
-def _pattern(phrases: Iterable[str]) -> re.Pattern[str]:
-    words = _words(phrases)
+def _pattern(phrases: Iterable[str], fold: Callable[[str], str] = fold) -> re.Pattern[str]:
+    words = _words(phrases, fold)
     return re.compile(rf"(?<!\w)(?:{words})(?!\w)") if words else re.compile(r"(?!)")
 
 

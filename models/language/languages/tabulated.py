@@ -7,7 +7,7 @@ from typing import Final
 
 from models.language.languages.cue_reader import TableCueReader
 from models.language.languages.english import English
-from models.language.languages.table import LanguageTable, fold, load_table
+from models.language.languages.table import LanguageTable, fold, load_table, lower
 from models.language.measures import Bearing, Measure
 from models.language.mentions.cue_reader import MentionSpan, ReadCue
 
@@ -48,7 +48,7 @@ class Tabulated:
     def meets(self, text: str, start: int, end: int) -> bool:
         """Return whether the words at start..end, between two streets, may say that these meet."""
         between = fold(text[start:end])
-        rest = self.table.corners.sub(" ", self.table.ands.sub(" ", between))
+        rest = self.table.corners.sub(" ", fold(self.table.ands.sub(" ", lower(text[start:end]))))
         joined = rest != between or re.search(r"[/&+@]|-\s*$", between) is not None
         return joined and all(len(word) <= MAX_SMALL_WORD for word in _MARKS.split(rest)) and "." not in between
 
@@ -68,7 +68,7 @@ class Tabulated:
     def is_between(self, text: str, first: int, start: int, end: int, last: int) -> bool:
         """Return whether a text is about what is between two things at first..start and end..last."""
         folded = fold(text)
-        if self.table.ands.search(folded, start, end) is None and text[start:end].strip(" ") != "-":
+        if self.table.ands.search(lower(text), start, end) is None and text[start:end].strip(" ") != "-":
             return False
         after = self.table.between.search(folded, last, last + MAX_APART // 2)
         return self.begins_between(text, first) or (

@@ -16,7 +16,7 @@ from models.citymap.gazetteer.name_columns import STREET_KIND
 from models.citymap.kinds.vocabulary import Vocabulary
 from models.citymap.points import Ints
 from models.citymap.types import Floats
-from models.language.languages.table import LanguageTable, is_inflected, shared_letters
+from models.language.languages.table import is_inflected, shared_letters
 from models.language.mentions.abbreviations import MAX_READINGS, written_out
 from models.language.mentions.house_numbers import NumberMatch, first_value, match_number, plain_number
 from models.language.mentions.name_table import NUMBER_SEPARATOR, NameTable
@@ -241,9 +241,9 @@ class Lookup:
         nouns = (noun for noun, kinds in self._nouns.items() if any(kind in by_kind for kind, _ in kinds))
         return sorted({phrase for phrase in (*self._table.names.all_keys, *nouns) if " " in phrase})
 
-    def kinds(self, words: Sequence[str], table: LanguageTable | None = None) -> Mapping[str, float]:
-        """Return the kinds that a noun means with their weights, in English or the languages of a table; often none."""
-        return self._kinds(tuple(words)) if table is None else table.kinds(tuple(words))
+    def kinds(self, words: Sequence[str]) -> Mapping[str, float]:
+        """Return the kinds that an English noun means with their weights; often none."""
+        return self._kinds(tuple(words))
 
     def kinds_in_any_language(self, word: str) -> Mapping[str, float]:
         """Return the kinds that a word means in any language: "the Kahvila"."""

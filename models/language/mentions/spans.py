@@ -125,7 +125,7 @@ def _spans_at(
     if (plain[0] in EMPTY or plain[-1] in EMPTY) and not lookup.is_name(plain):
         return spans
     is_passed = first == last and plain[0] in PASSED and not _is_seen(words, first)
-    kinds = {} if is_passed else _kinds(plain, mended, lookup, language)
+    kinds = {} if is_passed else _kinds(plain, mended, lookup, language, is_name=words[last].is_capital)
     if kinds:
         score = (WORD_SCORE if len(plain) == 1 else PHRASE_SCORE) + WORD_SCORE * len(plain)
         spans.append(Span(first, last, "thing", None, score, kinds))
@@ -144,18 +144,18 @@ def _spans_at(
 def _streets_at(
     words: Sequence[Word], first: int, last: int, plain: tuple[str, ...], lookup: Lookup, language: Language
 ) -> list[Span]:
-    street = match_street(words, first, last, plain, lookup, inflects=language.table is not None)
+    street = match_street(words, first, last, plain, lookup, table=language.table)
     return [] if street is None else [Span(first, last, "street", *street)]
 
 
 def _kinds(
-    plain: tuple[str, ...], mended: Mapping[str, str], lookup: Lookup, language: Language
+    plain: tuple[str, ...], mended: Mapping[str, str], lookup: Lookup, language: Language, *, is_name: bool
 ) -> Mapping[str, float]:
     """Return the kinds that words mean; "the Thai one" is a Thai place, "the Kahvila" a cafe."""
     if len(plain) == 1 and (plain[0] in language.stop or (plain[0] in STOP and language.table is None)):
         return {}
     if language.table is not None:
-        return lookup.kinds(plain, language.table)
+        return language.table.kinds(plain, inflects=not is_name or language.table.has_capital_nouns)
     noun = (*plain[:-1], "place") if len(plain) > 1 and plain[-1] in _ONE else plain
     kinds = lookup.kinds(noun) or lookup.kinds([mended.get(word, word) for word in noun])
     if len(plain) > 1:

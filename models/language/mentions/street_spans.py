@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from typing import Final
 
+from models.language.languages.table import LanguageTable
 from models.language.measures import COMPASS_OF_LETTERS, ordinal
 from models.language.mentions.lookup import Lookup, Match
 from models.language.mentions.names import ORDINAL, STREET_ABBREVIATIONS, STREET_KINDS, Word
@@ -10,6 +11,7 @@ from models.language.mentions.word_lists import english
 
 STREET_SCORE, TYPE_SCORE, WORD_SCORE = 5.0, 2.0, 3.0  # scores of street spans
 MEETING_SCORE: Final = 3.0  # of a street next to a numbered one
+ARTICLES_OF_STREETS: Final = frozenset(("la", "a", "na", "da", "le", "die", "der"))  # before its number alone: "la 41"
 _MEET: Final = frozenset(("and", "at", "&", "@", "/", "n"))
 _W = english()
 _STREET_BEFORE, _STREET_AFTER = _W.list("street_before"), _W.list("street_after")
@@ -18,26 +20,49 @@ _SAID_OF = _W.list("said_of_street")
 
 
 def match_street(
-    words: Sequence[Word], first: int, last: int, plain: tuple[str, ...], lookup: Lookup, *, inflects: bool = False
+    words: Sequence[Word],
+    first: int,
+    last: int,
+    plain: tuple[str, ...],
+    lookup: Lookup,
+    table: LanguageTable | None = None,
 ) -> tuple[Match, float] | None:
     """Return the streets of a name; of a short form, such as an ordinal, only next to words that go with streets.
 
-    In a language that `inflects` names, "Mannerheimintiellä" is on Mannerheimintie.
+    In a language with a `table`, names are inflected ("Mannerheimintiellä"), numbered streets translated ("calle 41").
     """
-    if len(plain) == 1 and plain[0].isdecimal():
+    if len(plain) == 1 and plain[0].isdecimal() and table is None:
         return None
     has_type = plain[-1] in STREET_KINDS or plain[-1] in STREET_ABBREVIATIONS
     match = lookup.street(plain)
     if match is None and has_type and len(plain) > 1 and plain[-2].isdecimal() and plain[-2].isascii():
         match = lookup.street((*plain[:-2], ordinal(int(plain[-2])), plain[-1]))
-    if match is None and inflects:
+    if match is None and table is not None:
+        numbered = _numbered(words, first, plain, lookup, table)
+        if numbered is not None:
+            return numbered, STREET_SCORE + WORD_SCORE * len(plain) + TYPE_SCORE
         match = lookup.street_form(plain)
     if match is None and len(plain) == 1:
         match = lookup.street_like(plain[0])
-    if match is None or not _is_meant(words, first, last, match, has_type, lookup, inflects=inflects):
+    if match is None or not _is_meant(words, first, last, match, has_type, lookup, inflects=table is not None):
         return None
     score = STREET_SCORE + WORD_SCORE * len(plain) + (TYPE_SCORE if has_type else 0.0)
     return match, score + (MEETING_SCORE if _meets_ordinal(words, first, last) else 0.0)
+
+
+def _numbered(
+    words: Sequence[Word], first: int, plain: tuple[str, ...], lookup: Lookup, table: LanguageTable
+) -> Match | None:
+    """Return a numbered street of an English-speaking city: "calle 41", "la Quinta"."""
+    kind = table.street_types.get(plain[0]) or table.street_types.get(plain[-1])
+    rest = [word for word in plain if word not in table.street_types]
+    if len(rest) != 1 or (kind is None and not (first and words[first - 1].plain in ARTICLES_OF_STREETS)):
+        return None
+    number = table.ordinals.get(rest[0]) or (int(rest[0]) if rest[0].isdecimal() and len(rest[0]) < 4 else None)
+    if number is None:
+        return None
+    kind = kind or ("street" if rest[0].isdecimal() else "avenue")
+    return lookup.street((ordinal(number), kind))
 
 
 def _meets_ordinal(words: Sequence[Word], first: int, last: int) -> bool:
