@@ -13,10 +13,10 @@ from models.language.mentions.word_lists import english
 
 ENGLISH: Final = "en"
 ENGLISH_ONLY_WORDS: Final = frozenset(("the", "an", "and", "of", "with", "for"))
-MIN_WORDS: Final = 3  # distinct words; shorter texts without everyday words count as English
+MIN_WORDS: Final = 3  # that are no names; texts with fewer, and no everyday words, count as English
 MIN_SCORE: Final = 0.9  # of a language with a table, in words that no other has
-MIN_SECOND: Final = 2.0  # of a language that a text mixes in ...
-MIN_SECOND_SHARE: Final = 0.3  # ... and its share of the text's everyday words
+MIN_SECOND: Final = 1.5  # of a language that a text mixes in ...
+MIN_SECOND_SHARE: Final = 0.2  # ... and its share of the text's everyday words
 MIN_MARGIN_NATS: Final = 25.0  # by which a language without a table must be likelier than English
 LANGUAGE_NAMES: Final = {
     "da": "Danish", "no": "Norwegian", "uk": "Ukrainian", "ja": "Japanese", "zh": "Chinese", "ko": "Korean",
@@ -35,7 +35,7 @@ def detect_languages(text: str) -> tuple[str, ...]:
         for code in languages:
             score[code] += 1 / len(languages)
     best, second = sorted(score, key=lambda code: -score[code])[:2]
-    if score[best] < MIN_SCORE and len({word.plain for word in words}) >= MIN_WORDS:
+    if score[best] < MIN_SCORE and len(plain) >= MIN_WORDS:
         return (_without_table(text),)
     if score[best] < MIN_SCORE:
         return (best if score[best] > score[ENGLISH] else ENGLISH,)

@@ -77,7 +77,9 @@ def test_what_is_said_in_a_name_is_not_read_twice(lookup, meanings, english) -> 
 
 def test_what_has_a_name_is_not_taken_for_another(lookup, english) -> None:
     text = "I'm outside the Old Mill"
-    [mention] = find_mentions(text, lookup, english, nouns=[(16, 24)], find_paraphrase=lambda _: ("baby", "goods", "shop"))
+    [mention] = find_mentions(
+        text, lookup, english, nouns=[(16, 24)], find_paraphrase=lambda _: ("baby", "goods", "shop")
+    )
     assert mention.objects.tolist() == [2]
 
 

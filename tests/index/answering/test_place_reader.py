@@ -134,13 +134,19 @@ def test_evidence_says_where_what_explains_it_is(localizer) -> None:
         assert np.degrees(np.arctan2(east, north)) % 360 == pytest.approx(hint.bearing_deg, abs=3)
 
 
-def test_another_language_is_answered_by_names_with_a_warning(localizer) -> None:
-    result = answer(
-        localizer, "Ich stehe an der Ecke East Street 2 und North Path 3, links von mir ist ein Briefkasten"
-    )
-    assert any("German" in warning for warning in result.warnings)
-    assert result.estimate is not None
+def test_another_language_is_read_by_its_table(localizer) -> None:
+    text = "Ich stehe an der Ecke East Street 2 und North Path 3, links von mir ist ein Briefkasten"
+    result = answer(localizer, text)
+    assert result.warnings == ()
+    assert result.evidence[0].relation == "corner"
+    assert result.evidence[-1].relation == "left"
     assert np.hypot(*(result.estimate.position - corner_m(localizer, 2, 3))) < 40.0
+
+
+def test_a_language_without_a_table_is_answered_by_names_with_a_warning(localizer) -> None:
+    result = answer(localizer, "私は East Street 2 と North Path 3 の角にいます。左にポストがあります")
+    assert any("Japanese" in warning for warning in result.warnings)
+    assert result.estimate is not None
 
 
 def test_winds_are_seen_from_the_listener(localizer) -> None:
@@ -176,7 +182,7 @@ def test_what_is_near_stays_a_hint_and_what_the_heading_tells_is_a_mention(local
     for text, owned in (("I am north of a bench.", 1), ("There is a bench on my left.", 0)):
         [hints] = posterior.chunk_reader.parse([text])
         trust = posterior.binding.bind(hints).label.amax(dim=1).tolist()
-        mentions = posterior.places.read(text, "en", to_listener=False)
+        mentions = posterior.places.read(text, ("en",), to_listener=False)
         near, places = near_hints(hints, trust, mentions)
         assert (len(near), len(places)) == (owned, 1 - owned)
 

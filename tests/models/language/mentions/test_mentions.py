@@ -1,7 +1,9 @@
+from collections.abc import Sequence
+
 import pytest
 
 from models.language.languages.english import English
-from models.language.mentions.cue_reader import ReadCue
+from models.language.mentions.cue_reader import MentionSpan, ReadCue
 from models.language.mentions.mentions import Mention, add_cues
 from models.language.mentions.reader import find_mentions
 
@@ -36,7 +38,9 @@ MOST = 3  # of these
 )
 def test_words_go_to_the_thing_that_they_tell_of(english, text, expected) -> None:
     stated = [(relation, angle if angle is None else pytest.approx(angle)) for relation, angle in expected]
-    right = [phrase(text.replace("AAA", one).replace("BBB", other), english, one, other) == stated for one, other in NAMES]
+    right = [
+        phrase(text.replace("AAA", one).replace("BBB", other), english, one, other) == stated for one, other in NAMES
+    ]
     assert sum(right) >= MOST, "a trained reader may stumble over a name"
 
 
@@ -80,7 +84,7 @@ def test_a_kind_named_again_is_the_same_thing(english) -> None:
 
 def test_who_is_named_again_is_left_out_before_it_is_read(cues) -> None:
     class Credulous(English):
-        def read_cues(self, text: str, mentions: list[tuple[int, int, str]]) -> list[ReadCue]:
+        def read_cues(self, text: str, mentions: Sequence[MentionSpan]) -> list[ReadCue]:
             return [ReadCue(None, (), "seen", has_wind=False, is_meant=True) for _ in mentions]
 
     text = "A cafe is near. A bakery is north of the cafe."

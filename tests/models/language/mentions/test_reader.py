@@ -58,7 +58,9 @@ def test_who_speaks_is_no_place(lookup, english, hello) -> None:
 
 
 def test_an_unknown_name_is_told_of(lookup, english) -> None:
-    assert [m.text for m in find_mentions("I'm outside Zanzibar Moon Palace and Elmo is on my left", lookup, english)] == [
+    assert [
+        m.text for m in find_mentions("I'm outside Zanzibar Moon Palace and Elmo is on my left", lookup, english)
+    ] == [
         "Zanzibar Moon Palace",
         "Elmo",
     ]
@@ -112,7 +114,9 @@ def test_any_text_can_be_read(lookup, english, text) -> None:
 
 def test_a_map_without_names(lookup, english) -> None:
     bare = Lookup(EMPTY_GAZETTEER, load_vocabulary(), is_common)
-    result = find_mentions("I'm at 25th and 10th, Bottino on my left, a bench behind me, at 5 Main Street", bare, english)
+    result = find_mentions(
+        "I'm at 25th and 10th, Bottino on my left, a bench behind me, at 5 Main Street", bare, english
+    )
     assert all(not len(m.objects) and not len(m.lines_m) for m in result)
     assert all(m.form == "unknown" for m in result)
 

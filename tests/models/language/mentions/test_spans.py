@@ -78,7 +78,9 @@ def test_a_name_across_a_full_stop_is_none(lookup, english) -> None:
 
 def test_spans_are_in_order_and_apart(lookup, english) -> None:
     words, result = find_spans(
-        "Elmo on W 25th St near Joe's Coffee, the cafe at 10th Ave and 26th, Chelsea Park bench, Nowhere Inn", lookup, english
+        "Elmo on W 25th St near Joe's Coffee, the cafe at 10th Ave and 26th, Chelsea Park bench, Nowhere Inn",
+        lookup,
+        english,
     )
     assert len(result) >= 7
     assert all(one.last < other.first for one, other in pairwise(result))

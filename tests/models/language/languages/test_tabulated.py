@@ -1,0 +1,63 @@
+import pytest
+
+from models.citymap.kinds.vocabulary import load_vocabulary
+from models.language.languages.detect import detect_languages
+from models.language.languages.tabulated import tabulated
+from models.language.mentions.lookup import Lookup
+from models.language.mentions.reader import find_mentions
+from tests.models.citymap.gazetteer.made_town import is_common, made_gazetteer
+
+
+@pytest.fixture(scope="module")
+def lookup() -> Lookup:
+    return Lookup(made_gazetteer(), load_vocabulary(), is_common)
+
+
+def mentions(text: str, lookup: Lookup) -> list[tuple[str, str]]:
+    return [(m.form, m.text) for m in find_mentions(text, lookup, tabulated(detect_languages(text)))]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("Ich stehe an der Ecke Harlem Road und 10th Avenue", "Harlem Road und 10th Avenue"),
+        ("Olen Harlem Roadin ja 10th Avenuen kulmassa, missä olet", "Harlem Roadin ja 10th Avenuen"),
+        ("Estoy en la esquina de la calle 25 con la Décima", "calle 25 con la Décima"),
+    ],
+)
+def test_corners(lookup, text, words) -> None:
+    assert words in [mention for form, mention in mentions(text, lookup) if form in ("corner", "unknown")]
+
+
+def test_numbered_streets_in_spanish(lookup) -> None:
+    assert ("street", "calle 25") in mentions("Estoy en la calle 25, delante de una farmacia", lookup)
+    assert ("street", "Décima") in mentions("Estoy en la Décima, delante de una farmacia", lookup)
+
+
+def test_what_is_denied_counts_against_it(lookup) -> None:
+    text = "Ich stehe nicht bei Bottino. Vor mir ist die Bäckerei"
+    by_text = {m.text: m for m in find_mentions(text, lookup, tabulated(("de",)))}
+    assert by_text["Bottino"].is_denied
+    assert not by_text["Bäckerei"].is_denied
+
+
+def test_what_is_corrected_is_left_out(lookup) -> None:
+    found = mentions("Je suis devant Bottino, non pardon, devant Elmo", lookup)
+    assert ("thing", "Elmo") in found
+    assert ("thing", "Bottino") not in found
+
+
+def test_nouns_in_any_form(lookup) -> None:
+    [mention] = find_mentions("Seison apteekin edessä ja odotan sinua", lookup, tabulated(("fi",)))
+    assert "amenity/pharmacy" in mention.kinds
+    assert mention.cue.relation == "outside"
+
+
+def test_german_nouns_are_no_unknown_names(lookup) -> None:
+    text = "Guten Tag, ich stehe mit meinem Fahrrad und einem Rucksack vor Bottino"
+    assert [m.text for m in find_mentions(text, lookup, tabulated(("de",))) if m.form == "unknown"] == []
+
+
+def test_a_language_without_a_table_gives_names(lookup) -> None:
+    [mention] = find_mentions("Jsem u Bottino", lookup, tabulated(("cs",)))
+    assert mention.cue.angle is None
