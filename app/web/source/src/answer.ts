@@ -2,8 +2,9 @@
 
 import type { Answer, Evidence, Problem } from "./api";
 import { fill, h } from "./dom";
+import { count, direction, t } from "./language";
 import type { Place } from "./places";
-import { count, likely, metres, percent, sentence, sentences, wind } from "./words";
+import { likely, metres, percent, sentence, sentences } from "./words";
 
 export interface Acts {
   choose(place: number): void;
@@ -16,14 +17,20 @@ export interface Acts {
   unlock(key: string): void;
 }
 
+export interface Reply {
+  question: string;
+  choice: string;
+}
+
 /** What was asked besides the text. */
 export interface Given {
-  replies: { question: string; choice: string }[];
+  replies: Reply[];
   isInside: boolean; // an area alone is looked at
 }
 
 const FITS = 0.5; // as the service has it: from this probability on something explains what was said
 const WEAK = 0.2;
+const questions = new Map<string, NonNullable<Answer["question"]>>(); // that were shown, by id
 const SIGNS = { solid: "✓", weak: "~", none: "✗" };
 
 type Fit = keyof typeof SIGNS;
@@ -46,17 +53,17 @@ export function showAnswer(into: Element, said: string, answer: Answer, places: 
 }
 
 export function showWaiting(into: Element, said: string): void {
-  fill(into, h("p", { className: "told" }, said), h("p", { className: "quiet", role: "status" }, "Looking …"));
+  fill(into, h("p", { className: "told", dir: "auto" }, said), h("p", { className: "quiet", role: "status" }, t("looking")));
 }
 
-export function showProblem(into: Element, problem: Problem, replies: { question: string; choice: string }[], acts: Acts): void {
+export function showProblem(into: Element, problem: Problem, replies: Reply[], acts: Acts): void {
   const needsKey = problem.code.startsWith("key_");
-  const again = h("button", { type: "button", onclick: () => acts.ask() }, "Try again");
+  const again = h("button", { type: "button", onclick: () => acts.ask() }, t("tryAgain"));
   if (problem.retryAfter && !needsKey) {
     again.disabled = true;
     let left = problem.retryAfter;
     const tick = () => {
-      again.textContent = left > 0 ? `Try again in ${left} s` : "Try again";
+      again.textContent = left > 0 ? t("tryAgainIn", { seconds: left }) : t("tryAgain");
       again.disabled = left > 0;
       if (left-- > 0 && again.isConnected) setTimeout(tick, 1000);
     };
@@ -67,7 +74,7 @@ export function showProblem(into: Element, problem: Problem, replies: { question
     h("div", { role: "alert" }, h("h2", { tabIndex: -1 }, problem.title), h("p", {}, problem.message)),
     needsKey ? keyForm(acts) : again,
     replies.length > 0 && repliesList(replies, acts),
-    problem.requestId && h("p", { className: "small" }, `Request ${problem.requestId}`),
+    problem.requestId && h("p", { className: "small" }, t("request", { id: problem.requestId })),
   );
 }
 
@@ -77,7 +84,7 @@ function keyForm(acts: Acts): Element {
     event.preventDefault();
     acts.unlock(field.value);
   };
-  return h("form", { className: "row", onsubmit: submit }, h("label", { for: "key" }, "Key"), field, h("button", { className: "first" }, "Use it"));
+  return h("form", { className: "row", onsubmit: submit }, h("label", { for: "key" }, t("key")), field, h("button", { className: "first" }, t("useKey")));
 }
 
 function headline(answer: Answer, places: Place[], asked: Given, acts: Acts): Element {
@@ -89,36 +96,36 @@ function headline(answer: Answer, places: Place[], asked: Given, acts: Acts): El
   if (status === "ambiguous") {
     const fitting = places.filter((place) => place.fits).length;
     const held = places.reduce((sum, place) => sum + place.probability, 0);
-    const few = fitting > 1 && held > 0.5 ? `${count(fitting)} places fit.` : "Many places fit.";
-    return h("div", {}, h("h2", { tabIndex: -1 }, few), question(answer, acts), !answer.question && h("p", { className: "quiet" }, "Add one more thing you see."));
+    const few = fitting > 1 && held > 0.5 ? sentence(t("placesFit", { count: count(fitting) })) : t("manyPlacesFit");
+    return h("div", {}, h("h2", { tabIndex: -1 }, few), question(answer, acts), !answer.question && h("p", { className: "quiet" }, t("addOneThing")));
   }
   const here = places[0]?.probability ?? estimate.probability; // of the place; the service's is of a cell of 10 m
-  const [street, ...beside] = (estimate.place ?? "here").split(", ");
+  const [street, ...beside] = (estimate.place ?? t("here")).split(", ");
   const spot = estimate.wgs84 ? `${estimate.wgs84.lat.toFixed(6)}, ${estimate.wgs84.lon.toFixed(6)}` : `${estimate.position[0].toFixed(1)}, ${estimate.position[1].toFixed(1)} m`;
   return h(
     "div",
     {},
-    h("h2", { tabIndex: -1 }, sentence(street), estimate.place ? copy(estimate.place, "Copy the place") : null),
+    h("h2", { tabIndex: -1 }, h("span", {}, sentence(street)), estimate.place ? copy(estimate.place, t("copyPlace")) : null),
     beside.length > 0 && h("p", {}, beside.join(", ")),
-    h("p", {}, `within ${metres(estimate.radius_m.p90)}, nine times out of ten`),
-    h("p", { className: "quiet" }, `${percent(here)}: ${likely(here)}`, estimate.heading ? ` · you look ${wind(estimate.heading.mean_deg)}` : null),
-    h("p", { className: "spot" }, spot, copy(spot, "Copy the coordinates")),
+    h("p", {}, t("within", { distance: metres(estimate.radius_m.p90) })),
+    h("p", { className: "quiet" }, `${percent(here)}: ${likely(here)}`, estimate.heading ? ` · ${t("facing", { direction: direction(estimate.heading.mean_deg) })}` : null),
+    h("p", { className: "spot" }, spot, copy(spot, t("copyCoordinates"))),
     question(answer, acts),
   );
 }
 
 /** Why there is no place, and what to do. */
 function nothing(answer: Answer, isInside: boolean): [string, string] {
-  if (answer.evidence.length) return ["Nothing of it was found on this map", "Is it the right map? Add one thing you see: a street's name, a shop, a colour."];
-  if (isInside) return ["No place inside the area", "Move the area onto the map, or remove it."];
-  return ["Nothing to go by", "Name things around you: a street, a shop, a tree to your north."];
+  if (answer.evidence.length) return [t("notOnMap"), t("notOnMapAdvice")];
+  if (isInside) return [t("emptyArea"), t("emptyAreaAdvice")];
+  return [t("nothingToGoBy"), t("nothingToGoByAdvice")];
 }
 
 function copy(text: string, label: string): Element {
-  const button = h("button", { type: "button", className: "copy", "aria-label": label, title: label }, "Copy");
+  const button = h("button", { type: "button", className: "copy", "aria-label": label, title: label }, t("copy"));
   button.addEventListener("click", async () => {
-    await navigator.clipboard.writeText(text).then(() => (button.textContent = "Copied"), () => (button.textContent = "Not allowed"));
-    setTimeout(() => (button.textContent = "Copy"), 1500);
+    await navigator.clipboard.writeText(text).then(() => (button.textContent = t("copied")), () => (button.textContent = t("copyRefused")));
+    setTimeout(() => (button.textContent = t("copy")), 1500);
   });
   return button;
 }
@@ -126,6 +133,7 @@ function copy(text: string, label: string): Element {
 function question(answer: Answer, acts: Acts): Element | null {
   const asked = answer.question;
   if (!asked) return null;
+  questions.set(asked.id, asked);
   return h(
     "div",
     { className: "question", role: "group", "aria-label": asked.text },
@@ -137,13 +145,13 @@ function question(answer: Answer, acts: Acts): Element | null {
 
 /** A name that is not among those that are offered. */
 function nameForm(id: string, acts: Acts): Element {
-  const asked = id === "address" ? "Number and street" : "Another name";
+  const asked = id === "address" ? t("addressField") : t("nameField");
   const field = h("input", { type: "text", autocomplete: "off", required: true, maxLength: 200, "aria-label": asked, placeholder: asked });
   const send = (event: Event) => {
     event.preventDefault();
     if (field.value.trim()) acts.reply(id, field.value.trim());
   };
-  return h("form", { className: "row", onsubmit: send }, field, h("button", { type: "submit" }, "Send"));
+  return h("form", { className: "row", onsubmit: send }, field, h("button", { type: "submit" }, t("send")));
 }
 
 /** The text, its mentions underlined by how well something explains them. */
@@ -152,7 +160,7 @@ function told(said: string, answer: Answer, acts: Acts): Element {
     .map((evidence, mention) => ({ evidence, mention, span: evidence.span }))
     .filter((row): row is typeof row & { span: [number, number] } => !!row.span && row.span[0] < row.span[1])
     .sort((a, b) => a.span[0] - b.span[0] || b.span[1] - a.span[1]);
-  const element = h("p", { className: "told" });
+  const element = h("p", { className: "told", dir: "auto" });
   const letters = [...said]; // places count characters, not the halves of one
   let before = 0;
   for (const { evidence, mention, span } of spans) {
@@ -190,27 +198,36 @@ function evidenceList(said: string, answer: Answer, acts: Acts): Element | null 
       "li",
       { className: fit, "data-evidence": mention, onmouseenter: () => acts.light(mention), onmouseleave: () => acts.light(null) },
       h("span", { className: `sign m${mention % 8}`, "aria-hidden": "true" }, SIGNS[fit]),
-      h("span", {}, h("b", {}, evidence.text), (evidence.fit ?? "").slice(evidence.text.length)),
+      h("span", {}, h("b", {}, evidence.text), fitText(evidence)),
     );
   });
-  return h("ul", { className: "evidence", "aria-label": "What was understood" }, ...rows, ...missed(said, answer));
+  return h("ul", { className: "evidence", "aria-label": t("understood") }, ...rows, ...missed(said, answer));
+}
+
+/** What the fit of a mention says after its text. */
+function fitText({ text, fit }: Evidence): string {
+  if (!fit) return "";
+  return fit.startsWith(text) ? fit.slice(text.length) : `: ${fit}`;
 }
 
 /** The sentences in which nothing was understood. */
 function missed(said: string, answer: Answer): Element[] {
   const spans = answer.evidence.flatMap((evidence) => (evidence.span ? [evidence.span] : []));
   const empty = sentences(said).filter(({ start, end }) => !spans.some(([from, to]) => from < end && to > start));
-  return empty.map(({ text }) => h("li", { className: "none" }, h("span", { className: "sign", "aria-hidden": "true" }, "?"), h("span", {}, h("b", {}, `“${text}”`), " was not understood")));
+  return empty.map(({ text }) => h("li", { className: "none" }, h("span", { className: "sign", "aria-hidden": "true" }, "?"), h("span", {}, h("b", {}, `“${text}”`), ` ${t("notUnderstood")}`)));
 }
 
-/** What a question was about, of its id. */
-function topic(id: string): string {
-  const [kind, about] = id.split(":");
-  return (about ?? kind).split("|")[0];
+/** A reply in words: those of the question and the choice if they were shown, else those in the address. */
+function replyText({ question, choice }: Reply): string {
+  const shown = questions.get(question);
+  const [kind, about] = question.split(":");
+  const topic = shown?.text ?? `${(about ?? kind).split("|")[0]}:`;
+  return `${topic} ${shown?.choices.find(({ value }) => value === choice)?.text ?? choice}`;
 }
 
-function repliesList(replies: { question: string; choice: string }[], acts: Acts): Element {
-  return h("p", { className: "row small" }, "You answered:", ...replies.map(({ question: asked, choice }) => h("button", { type: "button", className: "chip", "aria-label": `Take back ${topic(asked)}: ${choice}`, onclick: () => acts.forget(asked) }, `${topic(asked)}: ${choice} ✕`)));
+function repliesList(replies: Reply[], acts: Acts): Element {
+  const chips = replies.map((reply) => h("button", { type: "button", className: "chip", "aria-label": t("takeBack", { reply: replyText(reply) }), onclick: () => acts.forget(reply.question) }, `${replyText(reply)} ✕`));
+  return h("p", { className: "row small" }, t("youAnswered"), ...chips);
 }
 
 function others(answer: Answer, places: Place[], chosen: number, acts: Acts): Element | null {
@@ -230,19 +247,19 @@ function others(answer: Answer, places: Place[], chosen: number, acts: Acts): El
     ),
   );
   const elsewhere = 1 - places.reduce((sum, place) => sum + place.probability, 0);
-  const rest = elsewhere > 0.005 ? h("li", { className: "small" }, `Elsewhere: ${percent(elsewhere)}`) : null;
+  const rest = elsewhere > 0.005 ? h("li", { className: "small" }, t("elsewhere", { share: percent(elsewhere) })) : null;
   const list = h("ol", { className: "places" }, ...rows, rest);
-  const amount = places.length === 2 ? "One other place" : `${count(places.length - 1)} other places`;
+  const amount = places.length === 2 ? t("otherPlace") : sentence(t("otherPlaces", { count: count(places.length - 1) }));
   return h("details", { className: "others", open: answer.status === "ambiguous" || chosen > 0 }, h("summary", {}, amount), list);
 }
 
 function placeName(place: Place): Element {
-  const [street, ...beside] = (place.name ?? `Place ${place.letter}`).split(", ");
+  const [street, ...beside] = (place.name ?? t("place", { letter: place.letter })).split(", ");
   return h("span", {}, sentence(street), beside.length > 0 && h("span", { className: "small" }, beside.join(", ")));
 }
 
 /** What speaks for a place, or against it. */
 function fitRow(fit: Fit, text: string): Element {
-  const about = { solid: "for it: ", weak: "", none: "against it: " }[fit];
+  const about = { solid: t("supports"), weak: "", none: t("contradicts") }[fit];
   return h("li", { className: fit }, h("span", { className: "sign", "aria-hidden": "true" }, SIGNS[fit]), h("span", {}, h("span", { className: "heard" }, about), text));
 }

@@ -1,5 +1,6 @@
 // The service, asked by the page: public paths only, relative, so that a prefix of a proxy stays.
 
+import { language, t } from "./language";
 import type { components } from "./schema";
 
 type Schemas = components["schemas"];
@@ -75,10 +76,11 @@ function send(path: string, body: unknown, signal?: AbortSignal): Promise<Respon
 
 async function call(path: string, request: RequestInit = {}): Promise<Response> {
   const headers = new Headers(request.headers);
+  headers.set("Accept-Language", language);
   const key = sessionStorage.getItem(KEPT);
   if (key && !/^[\x21-\x7e]+$/.test(key)) {
     sessionStorage.removeItem(KEPT);
-    throw new Problem("The key is wrong", "A key has letters, digits and signs of ASCII alone.", "key_wrong");
+    throw new Problem(t("keyWrong"), t("keyWrongAdvice"), "key_wrong");
   }
   if (key) headers.set("Authorization", `Bearer ${key}`);
   let response: Response;
@@ -86,7 +88,7 @@ async function call(path: string, request: RequestInit = {}): Promise<Response> 
     response = await fetch(path, { ...request, headers });
   } catch (error) {
     if (request.signal?.aborted) throw error;
-    throw new Problem("The service does not answer", "Is it still running, and are you online? Then try again.", "unreachable");
+    throw new Problem(t("unreachable"), t("unreachableAdvice"), "unreachable");
   }
   if (response.ok) return response;
   throw await problemOf(response);
@@ -95,8 +97,8 @@ async function call(path: string, request: RequestInit = {}): Promise<Response> 
 async function problemOf(response: Response): Promise<Problem> {
   const said = await response.json().catch(() => ({}));
   return new Problem(
-    said.title ?? `The service answered ${response.status}`,
-    said.detail ?? "Try again later.",
+    said.title ?? t("serviceAnswered", { status: response.status }),
+    said.detail ?? t("tryLater"),
     said.code ?? String(response.status),
     said.request_id ?? response.headers.get("x-request-id"),
     Number(response.headers.get("retry-after")) || null,

@@ -1,5 +1,8 @@
 // Elements, made in one way. Text is always text: nothing of a map, an answer or a person is ever read as markup.
 
+// A name in Hebrew or Arabic letters, which would turn the order of what stands beside it.
+const RIGHT_TO_LEFT = /([\u0590-\u08ff\ufb1d-\ufdff\ufe70-\ufefc](?:[\s\d'".\-\u0590-\u08ff\ufb1d-\ufdff\ufe70-\ufefc]*[\u0590-\u08ff\ufb1d-\ufdff\ufe70-\ufefc])?)/;
+
 type Child = Node | string | null | undefined | false;
 
 /** An element with properties and children; `on...` are listeners, `aria-...` and `data-...` attributes. */
@@ -14,12 +17,24 @@ export function h<K extends keyof HTMLElementTagNameMap>(
     else if (name.includes("-") || name === "role" || name === "for") element.setAttribute(name, String(value));
     else Object.assign(element, { [name]: value });
   }
-  element.append(...children.filter((child): child is Node | string => child !== null && child !== undefined && child !== false));
+  element.append(...nodes(children));
   return element;
 }
 
 export function fill(element: Element, ...children: Child[]): void {
-  element.replaceChildren(...children.filter((child): child is Node | string => child !== null && child !== undefined && child !== false));
+  element.replaceChildren(...nodes(children));
+}
+
+/** Children as nodes; right-to-left names in a text are isolated. */
+function nodes(children: Child[]): (Node | string)[] {
+  const shown = children.filter((child): child is Node | string => child !== null && child !== undefined && child !== false);
+  return shown.flatMap<Node | string>((child) => (typeof child === "string" ? child.split(RIGHT_TO_LEFT).map((part, n) => (n % 2 ? isolate(part) : part)) : child));
+}
+
+function isolate(name: string): Element {
+  const element = document.createElement("bdi");
+  element.textContent = name;
+  return element;
 }
 
 export function byId<T extends HTMLElement>(id: string): T {

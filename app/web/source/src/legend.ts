@@ -3,6 +3,7 @@
 import type { Info } from "./api";
 import { TOP } from "./camera";
 import { byId } from "./dom";
+import { t } from "./language";
 import type { View } from "./view";
 import { metres } from "./words";
 
@@ -19,12 +20,12 @@ export function legend(view: View, info: () => Info | null): void {
     let length = 1;
     for (let ten = 1; ten < 1e6; ten *= 10) for (const nice of NICE) if (nice * ten <= LONGEST * metresAPixel) length = nice * ten;
     scale.style.width = `${length / metresAPixel}px`;
-    say(scale, metres(length), `Scale: this long is ${metres(length)}`);
+    say(scale, metres(length), t("scale", { length: metres(length) }));
     north.hidden = Math.abs(pose.bearing) < 0.01;
     north.style.transform = `rotate(${-pose.bearing}rad)`;
     tilt.hidden = flat;
-    if (pose.pitch === TOP) say(tilt, "3D", "Look from the side");
-    else say(tilt, "2D", "Look from above");
+    if (pose.pitch === TOP) say(tilt, "3D", t("fromSide"));
+    else say(tilt, "2D", t("fromAbove"));
     say(attribution, info()?.index?.provenance.attribution ?? "");
   };
 }

@@ -4,6 +4,7 @@ import { showAnswer, showProblem, showWaiting, type Acts } from "./answer";
 import * as api from "./api";
 import { byId } from "./dom";
 import { examples } from "./examples";
+import { store, t, translatePage } from "./language";
 import { Measure } from "./measure";
 import { paint, type Shown } from "./overlay";
 import { isSheet, Panel } from "./panel";
@@ -15,6 +16,7 @@ import type { Tool } from "./tools";
 import { View } from "./view";
 import { legend } from "./legend";
 
+const DRAFT = "hereabouts-draft"; // what was typed, while the page is loaded in another language
 const BESIDE = 25; // metres of map around what is visited
 
 class Page implements Acts {
@@ -36,7 +38,8 @@ class Page implements Acts {
   private kept = 0;
 
   async start(): Promise<void> {
-    this.panel.said.value = this.state.said;
+    this.panel.said.value = sessionStorage.getItem(DRAFT) ?? this.state.said;
+    sessionStorage.removeItem(DRAFT);
     this.panel.set(this.state, null);
     this.panel.offer([]);
     this.view.overlay = (pen, camera, look, taken) => {
@@ -126,7 +129,7 @@ class Page implements Acts {
     try {
       this.info = await api.info();
       const index = this.info.index;
-      if (!index) throw new api.Problem("The map is still loading", "Try again in a moment.", "not_ready", null, 2);
+      if (!index) throw new api.Problem(t("mapLoading"), t("mapLoadingAdvice"), "not_ready", null, 2);
       this.measure.offer(this.info.data_sets);
       this.panel.limit(this.info.limits);
       if (!this.sceneries.length) await this.loadMap(index.provenance.map, 0);
@@ -175,6 +178,7 @@ class Page implements Acts {
         if (("prior" in change || "within" in change || "topK" in change) && this.state.said) void this.ask();
       },
       morePoints: () => void this.morePoints(),
+      speak: (language: string) => this.speak(language),
     };
   }
 
@@ -188,11 +192,20 @@ class Page implements Acts {
     this.panel.offerPoints(this.sceneries.length < this.parts);
   }
 
+  /** Loads the page again in a language; what was typed and asked stays. */
+  private speak(language: string): void {
+    store(language);
+    sessionStorage.setItem(DRAFT, this.panel.said.value);
+    if (this.sceneries.length) this.state.pose = { ...this.view.camera.pose };
+    history.replaceState(null, "", write(this.state));
+    location.reload();
+  }
+
   private async surprise(): Promise<void> {
     try {
       const [example] = await examples(this.sceneries[0], 1);
       if (example) this.wishes().ask(example.description);
-      else this.panel.tell("No place could be described; type what you see, or try again.");
+      else this.panel.tell(t("noExample"));
     } catch (error) {
       this.panel.tell(problemOf(error));
     }
@@ -282,7 +295,7 @@ class Page implements Acts {
   }
 
   private fail(error: unknown): void {
-    const known = error instanceof api.Problem ? error : new api.Problem("The page has a fault", problemOf(error), "page");
+    const known = error instanceof api.Problem ? error : new api.Problem(t("pageFault"), problemOf(error), "page");
     this.redraw({ answer: null, places: [], mention: null });
     showProblem(this.panel.answer, known, this.state.answers, this);
   }
@@ -298,4 +311,5 @@ function problemOf(error: unknown): string {
   return error instanceof api.Problem ? `${error.title}. ${error.message}` : String((error as Error)?.message ?? error);
 }
 
+translatePage();
 void new Page().start();

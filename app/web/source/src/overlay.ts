@@ -162,7 +162,7 @@ function line(pen: Pen, camera: Camera, look: Look, from: Point, evidence: Evide
   pen.lineTo(...b);
   pen.stroke();
   const away = evidence.away_m ?? Math.hypot(evidence.at![0] - from[0], evidence.at![1] - from[1]);
-  tag(pen, look, [evidence.name, metres(away)].filter(Boolean).join(" · "), [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2 - 14], taken);
+  tag(pen, look, [evidence.name && `\u2068${evidence.name}\u2069`, metres(away)].filter(Boolean).join(" · "), [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2 - 14], taken);
 }
 
 function rings(pen: Pen, camera: Camera, look: Look, estimate: NonNullable<Answer["estimate"]>): void {

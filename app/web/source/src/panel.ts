@@ -2,6 +2,7 @@
 
 import { byId, fill, h } from "./dom";
 import type { Described, Info } from "./api";
+import { LANGUAGES, language, t, type Key } from "./language";
 import type { State } from "./state";
 import { HINTS, type Tool } from "./tools";
 import { metres, sentence } from "./words";
@@ -12,9 +13,10 @@ interface Wishes {
   take(tool: Tool | null): void;
   change(change: Partial<State>): void;
   morePoints(): void;
+  speak(language: string): void;
 }
 
-const AREAS: [Tool, string][] = [["near", "I am near …"], ["circle", "Inside a circle"], ["box", "Inside a box"]];
+const AREAS: (Tool & Key)[] = ["near", "circle", "box"];
 const STEPS = ["low", "half", "high"] as const; // heights of the sheet on a phone
 
 export class Panel {
@@ -24,11 +26,11 @@ export class Panel {
   private readonly chips = byId("chips");
   private readonly describe = byId<HTMLButtonElement>("describe");
   private readonly where = h("div", {});
-  private readonly areas = AREAS.map(([kind, text]) => [kind, h("button", { type: "button", "aria-pressed": false, onclick: () => this.wishes.take(this.tool === kind ? null : kind) }, text)] as const);
+  private readonly areas = AREAS.map((kind) => [kind, h("button", { type: "button", "aria-pressed": false, onclick: () => this.wishes.take(this.tool === kind ? null : kind) }, t(kind))] as const);
   private readonly heat = h("input", { type: "checkbox" });
   private readonly cells = h("input", { type: "checkbox" });
   private readonly many = h("select", { id: "many" }, ...[5, 10, 40].map((k) => h("option", { value: String(k) }, String(k))));
-  private readonly points = h("button", { type: "button", hidden: true }, "More points");
+  private readonly points = h("button", { type: "button", hidden: true }, t("morePoints"));
   private tool: Tool | null = null;
   private waiting = 0;
 
@@ -51,12 +53,12 @@ export class Panel {
     const shown = h(
       "details",
       {},
-      h("summary", {}, "Show more on the map"),
-      h("label", { className: "check" }, this.heat, "Heat: where it might be"),
-      h("label", { className: "check" }, this.cells, "Cells that were found, by rank"),
-      h("div", { className: "row" }, h("label", { for: "many" }, "Candidates"), this.many, this.points),
+      h("summary", {}, t("showMore")),
+      h("label", { className: "check" }, this.heat, t("heat")),
+      h("label", { className: "check" }, this.cells, t("cells")),
+      h("div", { className: "row" }, h("label", { for: "many" }, t("candidates")), this.many, this.points),
     );
-    byId("more").append(h("details", { id: "look" }, h("summary", {}, "Say where to look"), h("div", { className: "row" }, ...this.areas.map(([, button]) => button)), this.where), shown, measure);
+    byId("more").append(h("details", { id: "look" }, h("summary", {}, t("whereToLook")), h("div", { className: "row" }, ...this.areas.map(([, button]) => button)), this.where), shown, measure, this.languages());
     this.sheet();
   }
 
@@ -72,15 +74,15 @@ export class Panel {
     for (const [kind, button] of this.areas) button.setAttribute("aria-pressed", String(tool === kind));
     fill(
       this.where,
-      prior && this.given(`Near a place, give or take ${metres(prior.sigma_m)}`, { prior: null }),
-      within && this.given("circle" in within ? `Only inside a circle of ${metres(within.circle.radius_m)}` : `Only inside a box, ${metres(within.bbox[2] - within.bbox[0])} by ${metres(within.bbox[3] - within.bbox[1])}`, { within: null }),
+      prior && this.given(t("givenNear", { distance: metres(prior.sigma_m) }), { prior: null }),
+      within && this.given("circle" in within ? t("givenCircle", { radius: metres(within.circle.radius_m) }) : t("givenBox", { width: metres(within.bbox[2] - within.bbox[0]), height: metres(within.bbox[3] - within.bbox[1]) }), { within: null }),
     );
-    this.tell(tool ? HINTS[tool] : "");
+    this.tell(tool ? t(HINTS[tool]) : "");
   }
 
   /** What to do now, or what went wrong beside the answer. */
   tell(text: string): void {
-    byId("tip").textContent = text;
+    fill(byId("tip"), text);
     byId("tip").hidden = !text;
   }
 
@@ -100,7 +102,7 @@ export class Panel {
   offer(examples: Described[]): void {
     if (examples.length) this.said.placeholder = examples[0].description;
     const chips = examples.slice(0, 2).map((example) => h("button", { type: "button", className: "chip", title: example.description, onclick: () => this.wishes.ask(example.description) }, short(example)));
-    fill(this.chips, ...chips, h("button", { type: "button", className: "chip", onclick: () => this.wishes.surprise() }, "Surprise me"));
+    fill(this.chips, ...chips, h("button", { type: "button", className: "chip", onclick: () => this.wishes.surprise() }, t("surprise")));
   }
 
   offerPoints(more: boolean): void {
@@ -121,7 +123,14 @@ export class Panel {
   }
 
   private given(text: string, without: Partial<State>): Element {
-    return h("p", { className: "row small" }, text, h("button", { type: "button", className: "chip", onclick: () => this.wishes.change(without) }, "Remove"));
+    return h("p", { className: "row small" }, text, h("button", { type: "button", className: "chip", onclick: () => this.wishes.change(without) }, t("remove")));
+  }
+
+  /** The choice of the page's language. */
+  private languages(): Element {
+    const options = Object.entries(LANGUAGES).map(([tag, name]) => h("option", { value: tag, lang: tag, selected: tag === language }, name));
+    const select = h("select", { id: "language", onchange: () => this.wishes.speak(select.value) }, ...options);
+    return h("div", { className: "row small" }, h("label", { for: "language" }, t("language")), select);
   }
 
   /** On a phone the panel is a sheet of three heights. */
@@ -129,7 +138,7 @@ export class Panel {
     const [grip, panel] = [byId("grip"), byId("panel")];
     const set = (step: number) => {
       panel.dataset.height = STEPS[Math.max(0, Math.min(STEPS.length - 1, step))];
-      grip.setAttribute("aria-label", `Height of this sheet: ${panel.dataset.height}`);
+      grip.setAttribute("aria-label", t("sheetHeight", { height: t(panel.dataset.height as (typeof STEPS)[number]) }));
     };
     const now = () => STEPS.indexOf(panel.dataset.height as (typeof STEPS)[number]);
     let from = 0;

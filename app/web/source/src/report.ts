@@ -1,6 +1,7 @@
 // A report of an evaluation: recalls in a table, the curve of errors, and where the errors are.
 
 import { fill, h } from "./dom";
+import { decimal, t } from "./language";
 import { metres } from "./words";
 
 /** A query of an evaluation; `estimate` and `error_m` are null where nothing was found. */
@@ -33,10 +34,10 @@ export function readReport(text: string): Report {
   try {
     report = JSON.parse(text);
   } catch {
-    throw new Error("This file is not JSON; choose a report.json that `hereabouts evaluate` wrote.");
+    throw new Error(t("fileNotJson"));
   }
   if (!report || typeof report !== "object" || typeof report.retrieval !== "object" || typeof report.localization !== "object") {
-    throw new Error("This file is no report; choose a report.json that `hereabouts evaluate` wrote.");
+    throw new Error(t("fileNoReport"));
   }
   return report;
 }
@@ -55,18 +56,18 @@ export function showReport(into: Element, report: Report, map: { shown: boolean;
   fill(
     into,
     h("h3", {}, `${report.data}, ${report.split}`),
-    h("p", { className: "small" }, `${report.queries} queries, ${report.cells} cells; ${report.model} (${report.method})`),
+    h("p", { className: "small" }, t("reportSize", { queries: report.queries, cells: report.cells, model: report.model, method: report.method })),
     table(report),
     errors.length > 0 && curve(errors),
-    errors.length > 0 && h("p", { className: "small" }, `Half are within ${far(errors, 0.5)}, nine tenths within ${far(errors, 0.9)}.`),
-    toggle && h("label", { className: "check" }, toggle, "Errors on the map"),
-    map && h("p", { className: "small legend" }, h("span", { className: "m2" }, "● within 5 m "), h("span", { className: "m4" }, "● 5 to 15 m "), h("span", { className: "far" }, "■ over 15 m")),
+    errors.length > 0 && h("p", { className: "small" }, t("reportErrors", { half: far(errors, 0.5), most: far(errors, 0.9) })),
+    toggle && h("label", { className: "check" }, toggle, t("errorsOnMap")),
+    map && h("p", { className: "small legend" }, h("span", { className: "m2" }, `● ${t("within5")} `), h("span", { className: "m4" }, `● ${t("from5To15")} `), h("span", { className: "far" }, `■ ${t("over15")}`)),
   );
 }
 
 function far(errors: number[], share: number): string {
   const error = errors[Math.min(errors.length - 1, Math.ceil(share * errors.length) - 1)];
-  return Number.isFinite(error) ? metres(error) : "no distance";
+  return Number.isFinite(error) ? metres(error) : t("noDistance");
 }
 
 function table(report: Report): Element {
@@ -74,11 +75,11 @@ function table(report: Report): Element {
   const head = h("tr", {}, h("td", {}), ...radii.map((radius) => h("th", { scope: "col" }, `${radius} m`)));
   const rows = ranks.map((rank) => h("tr", {}, h("th", { scope: "row" }, `k = ${rank}`), ...radii.map((radius) => h("td", {}, share(report.localization[rank][radius])))));
   const cells = Object.entries(report.retrieval).map(([rank, value]) => `R@${rank} ${share(value)}`);
-  return h("div", {}, h("table", {}, h("caption", {}, "Share of queries with one of the first k within"), h("thead", {}, head), h("tbody", {}, ...rows)), h("p", { className: "small" }, `The true cell is among the first: ${cells.join(", ")}.`));
+  return h("div", {}, h("table", {}, h("caption", {}, t("recallTable")), h("thead", {}, head), h("tbody", {}, ...rows)), h("p", { className: "small" }, t("cellRecall", { recalls: cells.join(", ") })));
 }
 
 function share(value: number): string {
-  return value.toFixed(3);
+  return decimal(value, 3);
 }
 
 /** How many are within how many metres. */
@@ -91,7 +92,7 @@ function curve(errors: number[]): Element {
     points.push(`${x(error)},${y(n / errors.length)}`, `${x(error)},${y((n + 1) / errors.length)}`);
   });
   points.push(`${x(LONGEST)},${y(errors.filter((error) => error <= LONGEST).length / errors.length)}`);
-  const svg = draw("svg", { viewBox: `0 0 ${WIDE} ${HIGH}`, class: "curve", role: "img", "aria-label": "Share of queries by error" });
+  const svg = draw("svg", { viewBox: `0 0 ${WIDE} ${HIGH}`, class: "curve", role: "img", "aria-label": t("errorCurve") });
   for (const part of [0, 0.5, 1]) {
     svg.append(draw("line", { x1: LEFT, x2: WIDE - 8, y1: y(part), y2: y(part), class: "grid" }), text(LEFT - 6, y(part) + 4, `${100 * part} %`, "end"));
   }

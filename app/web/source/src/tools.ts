@@ -2,6 +2,7 @@
 
 import type { Camera } from "./camera";
 import type { Drag } from "./controls";
+import type { Key } from "./language";
 import type { State, Within } from "./state";
 
 export type Tool = "describe" | "near" | "circle" | "box";
@@ -10,11 +11,11 @@ export type Area = { prior: State["prior"] } | { within: Within };
 const USUAL = { near: 50, circle: 150, box: 150 }; // metres, where nothing was drawn
 const LEAST = 3; // metres; less was a click
 
-export const HINTS: Record<Tool, string> = {
-  describe: "Click a place on the map, or press Enter on the map for its middle.",
-  near: "Click where you think you are, or draw how far off that may be.",
-  circle: "Click, or draw from the middle of the circle to its edge.",
-  box: "Click, or draw the box from corner to corner.",
+export const HINTS: Record<Tool, Key> = {
+  describe: "hintDescribe",
+  near: "hintNear",
+  circle: "hintCircle",
+  box: "hintBox",
 };
 
 /** An area as one draws it from a first place to a second. */

@@ -2,6 +2,7 @@
 
 import { Camera } from "./camera";
 import { control, type Picked } from "./controls";
+import { t } from "./language";
 import { DARK, LIGHT, wear, type Look } from "./look";
 import { Map2d } from "./map2d";
 import { Map3d, type MapPicture } from "./map3d";
@@ -35,7 +36,7 @@ export class View {
     this.over.className = "over";
     this.over.tabIndex = 0;
     this.over.setAttribute("role", "application");
-    this.over.setAttribute("aria-label", "Map. Arrow keys move it, plus and minus zoom, shift and arrow keys turn it.");
+    this.over.setAttribute("aria-label", t("map"));
     stage.append(this.picture.canvas, this.over);
     control(this.over, this.camera, picked);
     new ResizeObserver(() => this.fit()).observe(stage);
