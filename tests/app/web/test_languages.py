@@ -15,9 +15,11 @@ ENGLISH = CATALOGUES["en"]
 QUESTIONS = {name: catalogue["question"] for name, catalogue in CATALOGUES.items()}
 SURE = "I am at Café Sirius on East Street 2."
 HEBREW = "בית קפה אור"
-WIDER_THAN_SHOWN = """() => [...document.querySelectorAll("button:not(.chip[title]), label, summary, select, h2, p:not(.heard), td, th")]
-    .filter((e) => e.checkVisibility() && e.clientWidth && e.scrollWidth > e.clientWidth + 1).map((e) => e.outerHTML)"""
-
+WIDER_THAN_SHOWN = """() => {
+    const shown = "button, label, summary, select, h2, p:not(.heard), td, th";
+    const isCut = (e) => e.checkVisibility() && e.clientWidth && e.scrollWidth > e.clientWidth + 1;
+    return [...document.querySelectorAll(shown)].filter(isCut).map((e) => e.outerHTML);
+}"""
 NOT_ISOLATED = """() => {
     const walk = document.createTreeWalker(document.querySelector("#answer"), NodeFilter.SHOW_TEXT), texts = [];
     while (walk.nextNode()) if (/[\\u0590-\\u05ff]/.test(walk.currentNode.data)) texts.push(walk.currentNode);

@@ -167,6 +167,5 @@ export function isSheet(): boolean {
 
 /** A chip's few words for an example. */
 function short(example: Described): string {
-  const text = sentence(example.place ?? example.description).split(/[,.]/)[0];
-  return text.length > 32 ? `${text.slice(0, 30)}…` : text;
+  return sentence(example.place ?? example.description).split(/[,.]/)[0];
 }
