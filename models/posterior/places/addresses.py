@@ -1,5 +1,6 @@
 """The addresses of a map as people write them: "350 W 42nd St", "Bulevardi 12 b"."""
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
@@ -15,6 +16,7 @@ from models.language.mentions.names import Word, split_words
 from models.posterior.places.name_index import NameIndex
 from models.strings import Column, Postings, StringArray
 
+_HALF: Final = re.compile(r"(?<=\d) (?=\d/\d)")  # of "891 1/2"; the map's numbers have no blanks
 _NONE: Final = np.zeros(0, np.int64)
 
 
@@ -74,6 +76,7 @@ class Addresses:
 
         A number that a street lacks means its nearest numbers on the same side; none past the end of the street.
         """
+        address = _HALF.sub("", address)
         alone = number_alone(address)
         if alone is not None:
             return self.by_number.find(plain_number(alone))
