@@ -75,6 +75,40 @@ def test_the_page_and_its_requests_have_the_language_of_the_browser(visit, local
 
 
 @pytest.mark.slow
+def test_examples_are_in_the_language_of_the_page(visit):
+    visitor = visit(locale="fi-FI")
+
+    def crowd(route):
+        """Put two named places near every position of the map."""
+        body = route.fetch().body()
+        size = 8 + int.from_bytes(body[:8], "little")
+        header = json.loads(body[8:size])
+        grid = range(-4000, 4001, 200)  # decimetres
+        places = [[x, y, name, "cafe"] for x in grid for y in grid for name in ("Aurora", "Sirius")]
+        header["__metadata__"]["places"] = json.dumps(places)
+        head = json.dumps(header).encode()
+        route.fulfill(body=len(head).to_bytes(8, "little") + head + body[size:])
+
+    visitor.page.route("**/points?part=0", crowd)
+    visitor.open()
+    near = "(Aurora|Sirius)"
+    pattern = CATALOGUES["fi"]["example"].format(street=".+ Street.*", first=near, second=near)
+    texts = [chip.get_attribute("title") for chip in visitor.page.locator("#chips .chip[title]").all()]
+    assert len(texts) == 2
+    assert all(re.fullmatch(pattern, text) for text in texts), texts
+    assert visitor.page.get_attribute("#said", "placeholder") == texts[0]
+
+
+@pytest.mark.slow
+def test_the_example_of_every_language_is_understood(visit):
+    visitor = visit().open()
+    names = {"street": "East Street 2", "first": "Café Sirius", "second": "Vega Pharmacy"}
+    for name, catalogue in CATALOGUES.items():
+        evidence = visitor.ask(catalogue["example"].format(**names))["evidence"]
+        assert sorted(each["text"] for each in evidence) == sorted(names.values()), name
+
+
+@pytest.mark.slow
 def test_a_chosen_language_stays_with_what_was_asked_and_typed(visit):
     visitor = visit().open()
     visitor.ask(SURE)

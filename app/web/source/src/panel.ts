@@ -1,7 +1,8 @@
 // The panel beside the map: the box, its chips, and what waits until it is wanted.
 
 import { byId, fill, h } from "./dom";
-import type { Described, Info } from "./api";
+import type { Info } from "./api";
+import type { Example } from "./examples";
 import { LANGUAGES, language, t, type Key } from "./language";
 import type { State } from "./state";
 import { HINTS, type Tool } from "./tools";
@@ -99,7 +100,7 @@ export class Panel {
   }
 
   /** Three ways to begin; the first stands in the box in grey as well. */
-  offer(examples: Described[]): void {
+  offer(examples: Example[]): void {
     if (examples.length) this.said.placeholder = examples[0].description;
     const chips = examples.slice(0, 2).map((example) => h("button", { type: "button", className: "chip", title: example.description, onclick: () => this.wishes.ask(example.description) }, short(example)));
     fill(this.chips, ...chips, h("button", { type: "button", className: "chip", onclick: () => this.wishes.surprise() }, t("surprise")));
@@ -166,6 +167,6 @@ export function isSheet(): boolean {
 }
 
 /** A chip's few words for an example. */
-function short(example: Described): string {
+function short(example: Example): string {
   return sentence(example.place ?? example.description).split(/[,.]/)[0];
 }
