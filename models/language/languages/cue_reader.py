@@ -30,7 +30,7 @@ _ME: Final = re.compile(r"^\s*\w{1,4}(?!\w)")
 
 
 @dataclass(slots=True)
-class _Said:
+class _StatedPhrase:
     """A phrase in a clause that is about the nearest thing."""
 
     start: int
@@ -67,13 +67,13 @@ class TableCueReader:
 
     def find_bearings(self, text: str) -> list[Bearing]:
         """Return the compass directions of a text."""
-        folded, found = fold(text), list[Bearing]()
+        folded, bearings = fold(text), list[Bearing]()
         for wind, pattern in self._table.winds.items():
             for match in pattern.finditer(folded):
-                if not any(one.start < match.end() and match.start() < one.end for one in found):
-                    is_of = self._table.of.match(folded, match.end()) is not None
-                    found.append(Bearing(match.start(), match.end(), COMPASS_DEG[wind], is_of))
-        return sorted(found, key=lambda bearing: bearing.start)
+                if not any(one.start < match.end() and match.start() < one.end for one in bearings):
+                    is_of = self._table.of_words.match(folded, match.end()) is not None
+                    bearings.append(Bearing(match.start(), match.end(), COMPASS_DEG[wind], is_of))
+        return sorted(bearings, key=lambda bearing: bearing.start)
 
     def read(self, text: str, mentions: Sequence[MentionSpan]) -> list[ReadCue]:
         """Return the cue of each mention (start, end, form), in their order."""
@@ -90,8 +90,8 @@ class TableCueReader:
                 used.append(relation[1])
             elif form == "street":
                 relations[n], is_on = "near" if is_on else "inside", True
-        said = self._alone(folded, used)
-        for n, cue in self._matched(text, taken, said):
+        stated = self._alone(folded, used)
+        for n, cue in self._matched(text, taken, stated):
             if cue in EGO_DEG:
                 angles[n].append(EGO_DEG[cue])
                 if mentions[n][2] == "street" and relations[n] == "inside":
@@ -102,8 +102,8 @@ class TableCueReader:
 
     def phrase_spans(self, text: str) -> list[tuple[int, int]]:
         """Return the start and end of the phrases without a thing, and of distances."""
-        said = [(one.start, one.end) for one in self._alone(fold(text), ())]
-        return [*said, *((measure.start, measure.end) for measure in self.find_measures(text))]
+        stated = [(one.start, one.end) for one in self._alone(fold(text), ())]
+        return [*stated, *((measure.start, measure.end) for measure in self.find_measures(text))]
 
     def _relation(
         self, folded: str, start: int, end: int, taken: Sequence[tuple[int, int]]
@@ -120,23 +120,25 @@ class TableCueReader:
                     best = name, span  # type: ignore[assignment]
         return best
 
-    def _alone(self, folded: str, taken: Sequence[tuple[int, int]]) -> list[_Said]:
+    def _alone(self, folded: str, taken: Sequence[tuple[int, int]]) -> list[_StatedPhrase]:
         """Return the phrases without a thing, outside the mentions; of overlapping ones the longest."""
         matches = [
-            _Said(*match.span(), name)
+            _StatedPhrase(*match.span(), name)
             for name, phrases in self._table.cues.items()
             for phrase in phrases
             if phrase.alone is not None
             for match in phrase.alone.finditer(folded)
         ]
-        chosen: list[_Said] = []
+        chosen: list[_StatedPhrase] = []
         for one in sorted(matches, key=lambda one: one.start - one.end):
             spans = [*taken, *((other.start, other.end) for other in chosen)]
             if not any(one.start < end and start < one.end for start, end in spans):
                 chosen.append(one)
         return sorted(chosen, key=lambda one: one.start)
 
-    def _matched(self, text: str, taken: Sequence[tuple[int, int]], said: Sequence[_Said]) -> list[tuple[int, str]]:
+    def _matched(
+        self, text: str, taken: Sequence[tuple[int, int]], stated: Sequence[_StatedPhrase]
+    ) -> list[tuple[int, str]]:
         """Return which mention each phrase is about, with its cue; one of a list may be about several.
 
         In a clause that begins with a phrase, phrases are about what follows ("left the bank, right the shop"), else
@@ -149,7 +151,7 @@ class TableCueReader:
         last = -1  # the mention before
         for start, end, is_joined in self._clauses(text, taken):
             things = [n for n, (a, _) in enumerate(taken) if start <= a < end]
-            phrases = [one for one in said if start <= one.start < end]
+            phrases = [one for one in stated if start <= one.start < end]
             if not phrases:
                 if things and pending:
                     pairs += [(things[0], cue) for cue in pending]
@@ -192,7 +194,7 @@ class TableCueReader:
             carried, last = (current if is_forward else []), things[-1]
         return pairs
 
-    def _is_about_another(self, folded: str, start: int, end: int, phrases: Sequence[_Said]) -> bool:
+    def _is_about_another(self, folded: str, start: int, end: int, phrases: Sequence[_StatedPhrase]) -> bool:
         """Return whether a clause without a known thing has a word for another one."""
         for one in phrases:
             folded = folded[: one.start] + " " * (one.end - one.start) + folded[one.end :]
@@ -213,7 +215,7 @@ class TableCueReader:
         return [*clauses, (start, len(text), is_joined)]
 
 
-def _adjoins(folded: str, one: _Said, phrases: Sequence[_Said]) -> bool:
+def _adjoins(folded: str, one: _StatedPhrase, phrases: Sequence[_StatedPhrase]) -> bool:
     """Return whether a phrase follows another directly: "ahead on the left"."""
     return any(other.end <= one.start and len(folded[other.end : one.start].split()) <= 1 for other in phrases)
 

@@ -78,8 +78,8 @@ class LanguageTable:
             wind: _pattern(_phrases(self._joined("winds", wind, "|")))
             for wind in ("northeast", "northwest", "southeast", "southwest", "north", "south", "east", "west")
         }
-        of = _words(self._joined("winds", "of", " ").split())
-        self.of = re.compile(rf"{_GAP}(?:{of})(?!\w)") if of else re.compile(r"(?!)")
+        of_word = _words(self._joined("winds", "of", " ").split())
+        self.of_words = re.compile(rf"{_GAP}(?:{of_word})(?!\w)") if of_word else re.compile(r"(?!)")
 
     @cached_property
     def cues(self) -> dict[str, list[Phrase]]:

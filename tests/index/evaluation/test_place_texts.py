@@ -3,6 +3,7 @@ import json
 import pytest
 
 from index.evaluation.place_texts import constructions_of, evaluate_texts, text_tables
+from models.language.languages.english import English
 from models.language.mentions.reader import find_mentions
 from models.sources.place_texts import PlaceText
 
@@ -36,6 +37,6 @@ def test_the_report_has_errors_and_radii_of_all_texts_and_by_construction(locali
 
 def test_the_constructions_of_a_mention(localizer) -> None:
     posterior = localizer.posterior
-    mentions = find_mentions("A bench is 20 m ahead.", posterior.places._lookup, posterior.weights.cues)
+    mentions = find_mentions("A bench is 20 m ahead.", posterior.places._lookup, English(posterior.weights.cues))
     [mention] = [mention for mention in mentions if mention.form == "thing"]
     assert constructions_of(mention) == {"kind", "left, right, ahead, behind", "distance"}

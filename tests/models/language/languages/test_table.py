@@ -32,11 +32,11 @@ def test_each_entry_is_of_a_known_type(code) -> None:
 
 @pytest.mark.parametrize("code", CODES)
 def test_no_phrase_of_a_side_is_one_of_another(code) -> None:
-    seen: dict[str, str] = {}
+    names: dict[str, str] = {}
     for name, phrases in load_table((code,)).cues.items():
         for phrase in phrases:
             if phrase.alone is not None and name in EGO_DEG:
-                assert seen.setdefault(phrase.alone.pattern, name) == name, phrase.alone.pattern
+                assert names.setdefault(phrase.alone.pattern, name) == name, phrase.alone.pattern
 
 
 def test_a_mixture_has_the_words_of_both_languages() -> None:

@@ -42,9 +42,9 @@ def test_what_is_denied_counts_against_it(lookup) -> None:
 
 
 def test_what_is_corrected_is_left_out(lookup) -> None:
-    found = mentions("Je suis devant Bottino, non pardon, devant Elmo", lookup)
-    assert ("thing", "Elmo") in found
-    assert ("thing", "Bottino") not in found
+    result = mentions("Je suis devant Bottino, non pardon, devant Elmo", lookup)
+    assert ("thing", "Elmo") in result
+    assert ("thing", "Bottino") not in result
 
 
 def test_nouns_in_any_form(lookup) -> None:

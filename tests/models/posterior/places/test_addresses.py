@@ -62,3 +62,8 @@ def test_houses_of_one_address_share_a_column(addresses):
 def test_a_map_without_numbers_has_none():
     assert len(Addresses.build([GazetteerObject(("shop",), ("A",))])) == 0
     assert not len(Addresses.build([]).find("12 Bulevardi"))
+
+
+def test_a_half_of_a_number_is_part_of_it():
+    addresses = Addresses.build([GazetteerObject(("building",), (), "891 1/2", "1st Avenue")])
+    assert addresses.find("891 1/2 1st Avenue").tolist() == [0]
