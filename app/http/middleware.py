@@ -26,6 +26,11 @@ def descriptions_of(scope: Scope) -> list[str]:
     return scope.setdefault("hereabouts.descriptions", [])
 
 
+def reply_languages_of(scope: Scope) -> list[str]:
+    """Return the languages of the answers to one request, to which its route adds."""
+    return scope.setdefault("hereabouts.reply_languages", [])
+
+
 class AccessLog:
     """Middleware that logs and counts each request, and answers uncaught exceptions with 500."""
 

@@ -186,7 +186,7 @@ class Question:
     """The follow-up question that narrows the position most."""
 
     id: Annotated[str, Field(description="the id to send back; the service keeps no other state")]
-    text: Annotated[str, Field(description="the question, in English")]
+    text: Annotated[str, Field(description="the question, in the language of the reply")]
     choices: Annotated[
         tuple[Choice, ...],
         Field(description='the last one is "unknown": the question is not asked again and the answer does not change'),
@@ -212,6 +212,7 @@ class Answer:
     evidence: tuple[Evidence, ...] = ()
     heat_map: HeatMap | None = None
     question: Question | None = None
+    language: str = "en"  # of its texts
 
 
 @dataclass(frozen=True, slots=True)

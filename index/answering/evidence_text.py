@@ -8,18 +8,19 @@ import numpy as np
 from index.answering.answers import Evidence
 from index.answering.place_text import compass_direction
 from models.citymap.types import Floats
+from models.language.languages.translation import translatable, translate
 
 EXPLAINED_PROBABILITY: Final = 0.5  # from here on evidence counts as explained
-NOT_FOUND: Final = "not found here"
-UNKNOWN_NAME: Final = "unknown name"
-NOT_ON_MAP: Final = "not on this map"
+NOT_FOUND: Final = translatable("not found here")
+UNKNOWN_NAME: Final = translatable("unknown name")
+NOT_ON_MAP: Final = translatable("not on this map")
 HERE_M: Final = 1.0  # from a nearer point a direction tells nothing
-_SIDES: Final = (
-    (22.5, "ahead of you"),
-    (67.5, "ahead on your {}"),
-    (112.5, "to your {}"),
-    (157.5, "behind you on your {}"),
-    (181.0, "behind you"),
+_SIDES: Final = (  # up to which angle, on the left, on the right
+    (22.5, translatable("ahead of you"), translatable("ahead of you")),
+    (67.5, translatable("ahead on your left"), translatable("ahead on your right")),
+    (112.5, translatable("to your left"), translatable("to your right")),
+    (157.5, translatable("behind you on your left"), translatable("behind you on your right")),
+    (181.0, translatable("behind you"), translatable("behind you")),
 )
 
 
@@ -31,7 +32,8 @@ def with_fit(
     Directions start from the speaker's heading, clockwise from north, or without a heading from the north. `missing`
     are the words for evidence that no object explains.
     """
-    return replace(evidence, fit=f"{evidence.text}: {_fit(evidence, position, heading_deg, missing)}")
+    fit = _fit(evidence, position, heading_deg, missing)
+    return replace(evidence, fit=translate("{evidence}: {fit}", evidence=evidence.text, fit=fit))
 
 
 def speaks_for(evidence: Evidence) -> bool:
@@ -41,22 +43,25 @@ def speaks_for(evidence: Evidence) -> bool:
 
 def _fit(evidence: Evidence, position: Floats, heading_deg: float | None, missing: str) -> str:
     if evidence.absent:
-        return "none here, as described" if speaks_for(evidence) else "there is one here"
+        return translate("none here, as described") if speaks_for(evidence) else translate("there is one here")
     if evidence.at is None:
-        return missing
+        return translate(missing)
     offset_m = np.subtract(evidence.at, position)
     distance_m = np.hypot(*offset_m)
     is_other_name = evidence.name is not None and evidence.name.lower() != evidence.text.lower()
     what = f"{evidence.name}, " if is_other_name else ""
     if distance_m < HERE_M:
-        return f"{what}right here"
-    away = "" if speaks_for(evidence) else " away"
-    direction = f"to the {compass_direction(offset_m)}" if heading_deg is None else _side(offset_m, heading_deg)
-    return f"{what}{distance_m:.0f} m{away} {direction}"
+        return what + translate("right here")
+    if heading_deg is None:
+        direction = translate("to the {direction}", direction=compass_direction(offset_m))
+    else:
+        direction = _side(offset_m, heading_deg)
+    if speaks_for(evidence):
+        return what + translate("{metres:.0f} m {direction}", metres=distance_m, direction=direction)
+    return what + translate("{metres:.0f} m away {direction}", metres=distance_m, direction=direction)
 
 
 def _side(offset_m: Floats, heading_deg: float) -> str:
     """Return the direction of an offset [2] (east, north) from a heading."""
     angle = (float(np.degrees(np.arctan2(*offset_m))) - heading_deg + 180.0) % 360.0 - 180.0
-    side = "left" if angle < 0 else "right"
-    return next(words.format(side) for most, words in _SIDES if abs(angle) <= most)
+    return translate(next(left if angle < 0 else right for most, left, right in _SIDES if abs(angle) <= most))

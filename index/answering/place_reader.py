@@ -19,6 +19,7 @@ from models.citymap.types import Floats
 from models.language.languages.detect import ENGLISH
 from models.language.languages.english import English
 from models.language.languages.tabulated import tabulated
+from models.language.languages.translation import reply_language
 from models.language.measures import compass_name, distance_in_text, overlaps
 from models.language.mentions.addresses import without_city
 from models.language.mentions.codes.reader import CodeReader
@@ -82,7 +83,7 @@ class PlaceReader:
             mentions = mark_goal(mentions)
         return mentions
 
-    @cachedmethod(lambda reader: reader._cache)
+    @cachedmethod(lambda reader: reader._cache, key=lambda _, *read: (*read, reply_language()))  # for their notes
     def _mentions(self, description: str, codes: tuple[str, ...], nouns: tuple[tuple[int, int], ...]) -> list[Mention]:
         language = self._english if codes == (ENGLISH,) else tabulated(codes)
         like = None if self.meanings is None else self.meanings.like

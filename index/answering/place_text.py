@@ -9,6 +9,7 @@ from models.citymap.gazetteer.closest_points import ClosestPoints, PointGroups, 
 from models.citymap.gazetteer.gazetteer import Gazetteer
 from models.citymap.points import Ints
 from models.citymap.types import Floats
+from models.language.languages.translation import translate
 from models.language.measures import compass_name
 
 STREET_REACH_M: Final = 30.0  # from a street's line; like the other reaches, not measured
@@ -43,7 +44,8 @@ def street_text(gazetteer: Gazetteer, street: int, position: Floats) -> str:
     away = gazetteer.corners_m[rows].astype(np.float64) - position
     distance_m = np.hypot(*away.T)
     if len(rows) and distance_m.min() <= CORNER_REACH_M:
-        return f"at the corner of {name} and {_other_street(gazetteer, int(rows[distance_m.argmin()]), street)}"
+        other = _other_street(gazetteer, int(rows[distance_m.argmin()]), street)
+        return translate("at the corner of {street} and {other}", street=name, other=other)
     near = np.flatnonzero(distance_m <= MAX_BLOCK_M)
     if len(near):
         first = near[distance_m[near].argmin()]
@@ -53,9 +55,9 @@ def street_text(gazetteer: Gazetteer, street: int, position: Floats) -> str:
         if len(behind):
             two = _other_street(gazetteer, int(rows[behind[distance_m[behind].argmin()]]), street)
             if one != two:
-                return f"on {name}, between {one} and {two}"
-        return f"on {name}, {distance_m[first]:.0f} m from {one}"
-    return f"on {name}"
+                return translate("on {street}, between {one} and {other}", street=name, one=one, other=two)
+        return translate("on {street}, {metres:.0f} m from {other}", street=name, metres=distance_m[first], other=one)
+    return translate("on {street}", street=name)
 
 
 def _nearest_named(gazetteer: Gazetteer, position: Floats) -> str | None:
@@ -66,8 +68,9 @@ def _nearest_named(gazetteer: Gazetteer, position: Floats) -> str | None:
     best = int(ways.distance_m.argmin())
     name, distance_m = gazetteer.objects[int(near[ways.target[best]])].names[0], float(ways.distance_m[best])
     if distance_m < 1.0:
-        return f"at {name}"
-    return f"{distance_m:.0f} m {compass_direction(-ways.offset_m[best])} of {name}"
+        return translate("at {name}", name=name)
+    direction = compass_direction(-ways.offset_m[best])
+    return translate("{metres:.0f} m {direction} of {name}", metres=distance_m, direction=direction, name=name)
 
 
 def _is_possibly_near(middles_m: Floats, reach_m: Floats, position: Floats, apart_m: float) -> npt.NDArray[np.bool_]:
@@ -77,9 +80,9 @@ def _is_possibly_near(middles_m: Floats, reach_m: Floats, position: Floats, apar
 
 
 def compass_direction(way_m: Floats) -> str:
-    """Return the compass direction of an offset [2] (east, north)."""
+    """Return the compass direction of an offset [2] (east, north), in the language of the reply."""
     east, north = way_m
-    return compass_name(float(np.degrees(np.arctan2(east, north))))
+    return translate(compass_name(float(np.degrees(np.arctan2(east, north)))))
 
 
 def closest_points_from(gazetteer: Gazetteer, objects: Ints, position: Floats, reach_m: float) -> ClosestPoints:

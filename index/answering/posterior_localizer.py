@@ -28,6 +28,7 @@ from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.language.languages.detect import ENGLISH, LANGUAGE_NAMES, detect_languages
 from models.language.languages.table import table_codes
+from models.language.languages.translation import choose_language, replies_in, reply_language, translatable, translate
 from models.language.mentions.contradictions import contradictions
 from models.language.mentions.mentions import Mention
 from models.language.mentions.name_table import NameTable
@@ -54,13 +55,14 @@ CACHED_DESCRIPTIONS = 256  # retriever vectors of the latest descriptions
 PLACE_CANDIDATE_CELLS = 128  # examined cells for texts that name places
 REPLY_CANDIDATE_CELLS = 1024  # without hints: a reply may name a street of some kilometres
 MIN_MARGIN_NATS = 4.0  # of the first retrieved cell over the last; fitted on validation (docs/method.md#candidates)
-NO_HINTS = (
+NO_HINTS = translatable(
     "the description does not say what is around the speaker; mention objects and directions, for example "
     "'I am north of a gray building.'"
 )
-OUTSIDE_MAP = "'within' contains no position of the map; move it onto the map or leave it out"
-NO_MATCH = "nothing in the description was found on the map; check that this is the right map"
-REPLIES_ONLY = "the answer follows from the replies alone: nothing in the description was found there"
+OUTSIDE_MAP = translatable("'within' contains no position of the map; move it onto the map or leave it out")
+NO_MATCH = translatable("nothing in the description was found on the map; check that this is the right map")
+UNKNOWN_LANGUAGE = translatable("a language that is not known here")
+REPLIES_ONLY = translatable("the answer follows from the replies alone: nothing in the description was found there")
 WELL_LOCATED_M = 10.0  # after a reply, questions go on until the 50 % radius is this small
 
 
@@ -110,12 +112,20 @@ class PosteriorLocalizer:
         queries = [replace(query, description=text) for query, text in zip(queries, texts, strict=True)]
         parsed = self.chunk_reader.parse([query.description for query in queries])
         encode_ms = elapsed_ms(start)
-        return [self._find(*each, encode_ms) for each in zip(queries, parsed, strict=True)]
+        return [self._find_in_language(*each, encode_ms) for each in zip(queries, parsed, strict=True)]
 
-    def _find(self, query: Query, hints: Sequence[ParsedHint], encode_ms: float) -> LocalizerResult:
+    def _find_in_language(self, query: Query, hints: Sequence[ParsedHint], encode_ms: float) -> LocalizerResult:
+        start = time.perf_counter()
+        languages = detect_languages(query.description)
+        with replies_in(choose_language(query.language, languages)):
+            result = self._find(query, languages, hints, encode_ms + elapsed_ms(start))
+            return replace(result, language=reply_language())
+
+    def _find(
+        self, query: Query, languages: tuple[str, ...], hints: Sequence[ParsedHint], encode_ms: float
+    ) -> LocalizerResult:
         start = time.perf_counter()
         reply_evidence = self.questions.reply_evidence(query.replies)
-        languages = detect_languages(query.description)
         hints = hints if languages == (ENGLISH,) else []
         warnings = _language_warnings(languages)
         hints, bound_hints, mentions, place_evidence = self._read(query, languages, hints)
@@ -124,13 +134,13 @@ class PosteriorLocalizer:
         known_facts = KnownFacts.from_text(bound_hints, mentions, list(self.labels), self._gazetteer)
         if not hints and place_evidence is None and reply_evidence is None:
             question = self._question_for_refused(query, known_facts)
-            refusal = NO_MATCH if mentions else NO_HINTS
+            refusal = translate(NO_MATCH if mentions else NO_HINTS)
             return LocalizerResult(None, refusal, timings_ms=timings, warnings=warnings, question=question)
         start = time.perf_counter()
         located = self._locate(query, hints, bound_hints, place_evidence, reply_evidence)
         timings["search"] = elapsed_ms(start)
         if located is None:
-            return LocalizerResult(None, OUTSIDE_MAP, timings_ms=timings, warnings=warnings)
+            return LocalizerResult(None, translate(OUTSIDE_MAP), timings_ms=timings, warnings=warnings)
         start = time.perf_counter()
         result = self._explain(located, hints, bound_hints, mentions, place_evidence)
         first, *others = result.views
@@ -141,9 +151,11 @@ class PosteriorLocalizer:
         result = replace(result, located=located, views=(first, *others))
         fits = any(map(speaks_for, first.evidence))
         if not fits and reply_evidence is not None:
-            warnings += (REPLIES_ONLY,)
+            warnings += (translate(REPLIES_ONLY),)
         if not fits and reply_evidence is None and first.evidence:
-            result = replace(result, refusal=NO_MATCH, question=self._question_for_refused(query, known_facts))
+            result = replace(
+                result, refusal=translate(NO_MATCH), question=self._question_for_refused(query, known_facts)
+            )
         elif self._is_uncertain(located, reply_evidence) and not _is_about_another_place(query):
             result = replace(result, question=self.questions.ask(located, known_facts, query.replies))
         timings["estimate"] = elapsed_ms(start)
@@ -320,5 +332,5 @@ def _is_understood(languages: tuple[str, ...]) -> bool:
 def _language_warnings(languages: tuple[str, ...]) -> tuple[str, ...]:
     if _is_understood(languages):
         return ()
-    name = LANGUAGE_NAMES.get(languages[0], "a language that is not known here")
-    return (f"the text seems to be in {name}: only names and nouns were used",)
+    name = translate(LANGUAGE_NAMES.get(languages[0], UNKNOWN_LANGUAGE))
+    return (translate("the text seems to be in {language}: only names and nouns were used", language=name),)

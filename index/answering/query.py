@@ -60,3 +60,4 @@ class Query:
     refine: Refine = DEFAULT_REFINE
     heat_map: bool = False  # whether to include the distribution in the answer
     replies: tuple[Reply, ...] = ()  # replies to questions of earlier answers; only the posterior uses them
+    language: str | None = None  # of the texts in the answer, one of `REPLY_LANGUAGES`; None for the description's

@@ -53,6 +53,7 @@ class LocalizerResult:
     heading: Heading | None = None
     warnings: tuple[str, ...] = ()  # sentences for the caller
     question: Question | None = None  # the follow-up question of an ambiguous or refused text
+    language: str = "en"  # of its texts
 
 
 class CellLocalizer(Protocol):
@@ -85,6 +86,7 @@ def to_answer(
             timings_ms=result.timings_ms,
             evidence=evidence,
             question=result.question,
+            language=result.language,
         )
     p50, p90 = located.radii_m(0.5, 0.9)
     covariance = located.covariance_m2()
@@ -113,6 +115,7 @@ def to_answer(
         evidence=evidence,
         heat_map=_heat_map(located) if query.heat_map else None,
         question=result.question,
+        language=result.language,
     )
 
 

@@ -5,22 +5,27 @@ from dataclasses import dataclass
 from typing import Final, Literal, cast, get_args
 
 from index.answering.answers import Choice, Question
+from models.language.languages.translation import nearest_noun, noun_with_article, translatable, translate
 from models.language.lexicon.question_classes import load_question_classes
 from models.posterior.nearby_objects import NEAR_M, QUARTERS
 
 QuestionKind = Literal["near", "way", "colour", "street", "name", "corner", "address"]
 OPEN_QUESTIONS: Final[Mapping[QuestionKind, str]] = {
-    "street": "Which street are you on?",
-    "name": "What is the name of a shop or another place that you can see?",
-    "corner": "What is the nearest cross street?",
-    "address": "What is the number and street of the house nearest to you?",
+    "street": translatable("Which street are you on?"),
+    "name": translatable("What is the name of a shop or another place that you can see?"),
+    "corner": translatable("What is the nearest cross street?"),
+    "address": translatable("What is the number and street of the house nearest to you?"),
 }
 UNKNOWN: Final = "unknown"
 OTHER: Final = "other"
 MAX_CHOICES: Final = 4  # colours or names that a question offers
 _CHOICE_TEXTS: Final = {
-    "yes": "Yes", "no": "No", "none": "There is none nearby", OTHER: "Another colour", UNKNOWN: "I don't know"
-}  # fmt: skip
+    "yes": translatable("Yes"),
+    "no": translatable("No"),
+    "none": translatable("There is none nearby"),
+    OTHER: translatable("Another colour"),
+    UNKNOWN: translatable("I don't know"),
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,16 +70,21 @@ class QuestionSpec:
 
     def question(self, listed: Sequence[str] = ()) -> Question:
         """Return the question with its text and choices; an open question offers the `listed` names."""
-        closed = tuple(Choice(value, _CHOICE_TEXTS.get(value, value.capitalize())) for value in (*self.values, UNKNOWN))
+        closed = tuple(Choice(value, choice_text(value)) for value in (*self.values, UNKNOWN))
         return Question(self.id, self._text(), (*(Choice(name, name) for name in listed), *closed), self.is_open)
 
     def _text(self) -> str:
         if self.is_open:
-            return OPEN_QUESTIONS[self.kind]
+            return translate(OPEN_QUESTIONS[self.kind])
         noun = load_question_classes().things[self.names[0]]
         if self.kind == "near":
-            article = "an" if noun[0] in "aeio" else "a"
-            return f"Is there {article} {noun} within about {NEAR_M:.0f} metres of you?"
+            one = noun_with_article(noun)
+            return translate("Is there {noun} within about {metres:.0f} metres of you?", noun=one, metres=NEAR_M)
         if self.kind == "way":
-            return f"In which direction is the nearest {noun}?"
-        return f"What colour is the nearest {noun}?"
+            return translate("In which direction is {noun}?", noun=nearest_noun(noun))
+        return translate("What colour is {noun}?", noun=nearest_noun(noun))
+
+
+def choice_text(value: str) -> str:
+    """Return the text of a choice of a closed question in the language of the reply."""
+    return translate(_CHOICE_TEXTS.get(value, value.capitalize()))

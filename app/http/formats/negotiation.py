@@ -9,7 +9,9 @@ from pydantic import BaseModel
 from starlette.responses import Response
 
 from app.http.errors import Code, Problem
+from app.http.middleware import reply_languages_of
 from models.citymap.frame import Frame
+from models.language.languages.translation import REPLY_LANGUAGES
 
 JSON = "application/json"
 GEOJSON = "application/geo+json"
@@ -32,6 +34,24 @@ def negotiate(request: Request, frame: Frame) -> str:
     if media_type is None:
         raise Problem(Code.NO_GEOREFERENCE if choose_media_type(accept, (GEOJSON,)) else Code.NOT_ACCEPTABLE)
     return media_type
+
+
+def negotiate_language(request: Request) -> str | None:
+    """Return the language of replies that an Accept-Language header prefers; None if it names none of them."""
+    qualities = dict[str, float]()
+    for part in ",".join(request.headers.getlist("accept-language")).lower().split(","):
+        tag, *parameters = (each.strip() for each in part.split(";"))
+        code, quality = tag.partition("-")[0], _parse_quality(parameters) or 0.0
+        if code in REPLY_LANGUAGES and quality > qualities.get(code, 0.0):
+            qualities[code] = quality
+    return max(qualities, key=lambda code: qualities[code], default=None)
+
+
+def language_headers(request: Request) -> dict[str, str]:
+    """Return the headers of an answer with texts in the languages that its route noted."""
+    languages = dict.fromkeys(reply_languages_of(request.scope))
+    content = {"Content-Language": ", ".join(languages)} if languages else {}
+    return {"Vary": "Accept, Accept-Language", **content}
 
 
 def accepts_gzip(request: Request) -> bool:

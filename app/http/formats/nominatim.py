@@ -25,13 +25,15 @@ def search_results(response: LocalizeResponse, localizer: LocalizerLike, limit: 
     results = []
     for number, place in enumerate(response.places[:limit], 1):
         box, described = _box(place.position, place.radius_m), localizer.describe(place.position)
-        results.append(_place(number, place.position, box, place.probability, described, localizer))
+        name = place.place or (described.place if described else None)
+        results.append(_place(number, place.position, box, place.probability, name, described, localizer))
     return results
 
 
 def reverse_result(described: Described, localizer: LocalizerLike) -> Place:
     """Return a described position as a place."""
-    return _place(1, described.position, _box(described.position, REVERSED_BOX_M / 2), 1.0, described, localizer)
+    box = _box(described.position, REVERSED_BOX_M / 2)
+    return _place(1, described.position, box, 1.0, described.place, described, localizer)
 
 
 def _box(center: tuple[float, float], radius_m: float) -> Box:
@@ -44,12 +46,13 @@ def _place(
     position: tuple[float, float],
     box: Box,
     importance: float,
+    words: str | None,
     described: Described | None,
     localizer: LocalizerLike,
 ) -> Place:
     wgs84 = LatLon.from_position(np.array(position), localizer.frame)
     assert wgs84 is not None
-    name = described.place if described and described.place else f"{wgs84.lat:.6f}, {wgs84.lon:.6f}"
+    name = words or f"{wgs84.lat:.6f}, {wgs84.lon:.6f}"
     return {
         "place_id": number,
         "licence": localizer.facts.attribution,

@@ -3,13 +3,14 @@
 import asyncio
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Request
+from fastapi import APIRouter, Request, Response
 from fastapi.exceptions import RequestValidationError
 from pydantic import BaseModel, ConfigDict, Field, JsonValue, ValidationError
 
 from app.http.bodies import REFUSALS
 from app.http.dependencies import AllIndexes
 from app.http.errors import Code, Problem, ProblemBody, as_problem
+from app.http.formats.negotiation import language_headers
 from app.http.indexes import Indexes
 from app.http.openapi import problems
 from app.http.queue import UNAVAILABLE
@@ -54,7 +55,7 @@ router = APIRouter(tags=["localize"])
 
 
 @router.post(PATH, responses=problems(*ERRORS))
-async def batch(request: Request, body: BatchRequest, indexes: AllIndexes) -> BatchResponse:
+async def batch(request: Request, response: Response, body: BatchRequest, indexes: AllIndexes) -> BatchResponse:
     """Localize several descriptions; an item that cannot be answered gets an error instead."""
     if indexes.is_draining or all(item.get("index", DEFAULT_ALIAS) == DEFAULT_ALIAS for item in body.items):
         indexes.check_accepting()
@@ -66,6 +67,7 @@ async def batch(request: Request, body: BatchRequest, indexes: AllIndexes) -> Ba
 
     async with asyncio.TaskGroup() as group:
         tasks = [group.create_task(answer(item)) for item in body.items]
+    response.headers.update(language_headers(request))
     return BatchResponse(items=[task.result() for task in tasks])
 
 

@@ -12,7 +12,7 @@ from starlette.responses import JSONResponse, Response
 from app import limits
 from app.http.dependencies import AllIndexes, IndexName
 from app.http.errors import Code, Problem
-from app.http.formats.negotiation import GEOJSON, JSON
+from app.http.formats.negotiation import GEOJSON, JSON, language_headers
 from app.http.formats.nominatim import NO_RESULT, Format, format_places, reverse_result, search_results
 from app.http.openapi import geojson_content, problems
 from app.http.queue import QUERY_ERRORS, InferenceQueue
@@ -55,7 +55,7 @@ async def search(
         check_positions(body, queue.localizer)
         response = await localize_for(request, body, queue)
         results = await asyncio.to_thread(search_results, response, queue.localizer, limit)
-    return _respond(format_places(results, form), form)
+    return _respond(format_places(results, form), form, language_headers(request))
 
 
 @router.get("/reverse", responses={200: DESCRIBED, **problems(*QUERY_ERRORS, Code.NO_GEOREFERENCE)})
@@ -86,8 +86,8 @@ def _as_query_error(error: Any) -> dict[str, Any]:
     return {**error, "loc": ("query", name), "ctx": {**context, "field": ""}}
 
 
-def _respond(content: Any, form: Format) -> Response:
-    return JSONResponse(content, media_type=GEOJSON if form == "geojson" else JSON)
+def _respond(content: Any, form: Format, headers: dict[str, str] | None = None) -> Response:
+    return JSONResponse(content, media_type=GEOJSON if form == "geojson" else JSON, headers=headers)
 
 
 def _georeferenced_frame(queue: InferenceQueue) -> Frame:

@@ -3,6 +3,7 @@
 import asyncio
 import time
 from collections.abc import Callable, Coroutine
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -15,8 +16,8 @@ from app.http.bodies import REFUSALS
 from app.http.dependencies import AllIndexes
 from app.http.errors import Code, Problem
 from app.http.formats.geojson import localize_collection
-from app.http.formats.negotiation import GEOJSON, negotiate, respond
-from app.http.middleware import descriptions_of
+from app.http.formats.negotiation import GEOJSON, language_headers, negotiate, negotiate_language, respond
+from app.http.middleware import descriptions_of, reply_languages_of
 from app.http.openapi import geojson_content, problems
 from app.http.protocol import LocalizerLike
 from app.http.queue import QUERY_ERRORS, InferenceQueue, ServedAnswer
@@ -56,7 +57,8 @@ async def localize(request: Request, body: LocalizeRequest, indexes: AllIndexes)
         media_type = negotiate(request, frame)
         check_positions(body, queue.localizer)
         response = await localize_for(request, body, queue)
-    return respond(localize_collection(response, frame) if media_type == GEOJSON else response, media_type)
+    content = localize_collection(response, frame) if media_type == GEOJSON else response
+    return respond(content, media_type, language_headers(request))
 
 
 async def localize_for(request: Request, body: LocalizeRequest, queue: InferenceQueue) -> LocalizeResponse:
@@ -64,7 +66,9 @@ async def localize_for(request: Request, body: LocalizeRequest, queue: Inference
     started_s = time.monotonic()
     deadline_s = started_s + body.deadline_ms / 1000
     descriptions_of(request.scope).append(body.text())
-    served = await run_while_connected(request, queue.submit(body.to_query(), deadline_s))
+    query = replace(body.to_query(), language=negotiate_language(request))
+    served = await run_while_connected(request, queue.submit(query, deadline_s))
+    reply_languages_of(request.scope).append(served.answer.language)
     timings_ms = {"queue": served.queue_ms, "total": (time.monotonic() - started_s) * 1000}
     response = LocalizeResponse.build(
         served.answer, queue.localizer, correlation_id.get() or "", timings_ms, body.index

@@ -7,6 +7,7 @@ from typing import Final
 
 import numpy as np
 
+from models.language.languages.translation import translate
 from models.language.measures import CharacterSpan, find_measures, overlaps
 from models.language.mentions.abbreviations import is_abbreviated
 from models.language.mentions.house_numbers import WrittenNumber, number_beside, numbers_apart
@@ -63,7 +64,9 @@ def _address(text: str, street: Mention, number: WrittenNumber, lookup: Lookup) 
     if match is not None:
         return [_mention(text, start, end, match)]
     words = text[start:end]
-    note = f"'{words}' is not on the map, and no neighbouring numbers are; only the street was used"
+    note = translate(
+        "'{address}' is not on the map, and no neighbouring numbers are; only the street was used", address=words
+    )
     return [street, Mention(words, start, end, "unknown", note=note)]
 
 
@@ -72,10 +75,15 @@ def _mention(text: str, start: int, end: int, address: AddressMatch) -> Mention:
     note = ""
     if match.between:
         low, high = (numbers[0] for _, numbers in match.between)
-        note = f"'{words}' is not on the map; {low} and {high} are, so a place between them is assumed"
+        note = translate(
+            "'{address}' is not on the map; {low} and {high} are, so a place between them is assumed",
+            address=words,
+            low=low,
+            high=high,
+        )
     elif not match.is_whole:
-        numbers = " and ".join(dict.fromkeys(match.numbers))
-        note = f"'{words}' is not on the map; {numbers} is assumed"
+        numbers = f" {translate('and')} ".join(dict.fromkeys(match.numbers))
+        note = translate("'{address}' is not on the map; {numbers} is assumed", address=words, numbers=numbers)
     weights = np.ones(len(address.objects) or len(address.lines_m))
     is_exact = match.is_whole and not match.between
     return Mention(words, start, end, "address", address.objects, weights, address.lines_m, 1.0, is_exact, note=note)

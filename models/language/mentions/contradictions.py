@@ -4,12 +4,15 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 from typing import Final
 
+from models.language.languages.translation import translatable, translate
 from models.language.measures import compass_name
 from models.language.mentions.mentions import Mention
 
 MIN_OPPOSITE_DEG: Final = 135.0  # two directions this far apart contradict each other
 MAX_SAME_NAME_OBJECTS: Final = 4  # of one place; a chain may have one on either side
-_EGO: Final = ("ahead", "on the right", "behind", "on the left")
+_EGO: Final = (
+    translatable("ahead"), translatable("on the right"), translatable("behind"), translatable("on the left")
+)  # fmt: skip
 ShownDirection = tuple[str, float]  # its words, and its degrees
 
 
@@ -20,7 +23,12 @@ def contradictions(mentions: Sequence[Mention]) -> Iterator[str]:
             continue
         for (shown, first), (also, second) in _pairs(one, other):
             if abs((first - second + 180.0) % 360.0 - 180.0) >= MIN_OPPOSITE_DEG:
-                yield f"'{other.text}': {shown} and {also} are both said, but cannot both be true"
+                yield translate(
+                    "'{text}': {one} and {other} are both said, but cannot both be true",
+                    text=other.text,
+                    one=shown,
+                    other=also,
+                )
 
 
 def _pairs(one: Mention, other: Mention) -> Iterator[tuple[ShownDirection, ShownDirection]]:
@@ -35,12 +43,12 @@ def _pairs(one: Mention, other: Mention) -> Iterator[tuple[ShownDirection, Shown
 
 
 def _side(degrees: float) -> ShownDirection:
-    return f"its {compass_name(degrees)} side", degrees
+    return translate("its {direction} side", direction=translate(compass_name(degrees))), degrees
 
 
 def _wind(degrees: float) -> ShownDirection:
-    return f"in the {compass_name(degrees)}", degrees
+    return translate("in the {direction}", direction=translate(compass_name(degrees))), degrees
 
 
 def _ego(degrees: float) -> ShownDirection:
-    return _EGO[round(degrees / 90.0) % 4], degrees
+    return translate(_EGO[round(degrees / 90.0) % 4]), degrees

@@ -10,6 +10,7 @@ import numpy as np
 from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.language.languages.tabulated import Language
+from models.language.languages.translation import translate
 from models.language.measures import (
     COMPASS_WORD,
     Bearing,
@@ -51,12 +52,14 @@ class Mention:
     is_denied: bool = False  # whether the text says that it is not there: "not near Kiasma"
     cue: Cue = NO_CUE  # where it is from the speaker
     side: float | None = None  # degrees of the stated side ("the north side of"); None without one
-    note: str = ""  # what was assumed to find it, or why it was not found, as a sentence for the caller
+    note: str = ""  # what was assumed to find it, or why it was not found, in the language of the reply
 
     @property
     def warning(self) -> str:
         """Return what the caller should know; often nothing."""
-        return self.note or (f"'{self.text}' was not found on the map" if self.is_unknown else "")
+        if self.note or not self.is_unknown:
+            return self.note
+        return translate("'{text}' was not found on the map", text=self.text)
 
     @property
     def is_unknown(self) -> bool:

@@ -82,3 +82,63 @@ def test_the_nearest_street_is_told() -> None:
     assert place_text(town, np.array([40.0, 6.0])) == "on Main Street"
     assert place_text(town, np.array([40.0, 16.0])) == "on Side Road"
     assert place_text(town, np.array([40.0, 70.0])) is None
+
+
+@pytest.mark.parametrize(
+    ("code", "corner", "between", "beyond"),
+    [
+        (
+            "fi",
+            "katujen West 24th Street ja 10th Avenue kulmassa",
+            "kadulla West 25th Street, katujen 9th Avenue ja 10th Avenue välissä",
+            "kadulla West 25th Street, 40 m kadun 9th Avenue risteyksestä",
+        ),
+        (
+            "sv",
+            "i hörnet av West 24th Street och 10th Avenue",
+            "på West 25th Street, mellan 9th Avenue och 10th Avenue",
+            "på West 25th Street, 40 m från 9th Avenue",
+        ),
+        (
+            "de",
+            "an der Ecke West 24th Street/10th Avenue",
+            "West 25th Street, zwischen 9th Avenue und 10th Avenue",
+            "West 25th Street, 40 m von der Ecke 9th Avenue entfernt",
+        ),
+        (
+            "fr",
+            "à l’angle West 24th Street / 10th Avenue",
+            "West 25th Street, entre 9th Avenue et 10th Avenue",
+            "West 25th Street, à 40 m du croisement avec 9th Avenue",
+        ),
+        (
+            "es",
+            "en la esquina de West 24th Street con 10th Avenue",
+            "en West 25th Street, entre 9th Avenue y 10th Avenue",
+            "en West 25th Street, a 40 m de 9th Avenue",
+        ),
+    ],
+)
+def test_the_street_in_other_languages(town, code, corner, between, beyond) -> None:
+    with replies_in(code):
+        texts = [place_text(town, np.array(p, dtype=float)) or "" for p in ((205, 5), (320, 82), (440, 80))]
+    assert [text[: len(words)] for text, words in zip(texts, (corner, between, beyond), strict=True)] == [
+        corner,
+        between,
+        beyond,
+    ]
+
+
+@pytest.mark.parametrize(
+    ("code", "expected"),
+    [
+        ("fi", "20 m etelään kohteesta Great Park"),
+        ("sv", "20 m söder om Great Park"),
+        ("de", "20 m südlich von Great Park"),
+        ("fr", "à 20 m au sud de «\u00a0Great Park\u00a0»"),
+        ("es", "a 20 m al sur de Great Park"),
+    ],
+)
+def test_the_nearest_name_in_other_languages(park, code, expected) -> None:
+    with replies_in(code):
+        assert place_text(park, np.array([300.0, -20.0])) == expected

@@ -1956,7 +1956,7 @@ export interface components {
             id: string;
             /**
              * Text
-             * @description the question, in English
+             * @description the question, in the language of the reply
              */
             text: string;
             /**

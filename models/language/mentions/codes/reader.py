@@ -14,6 +14,7 @@ from models.citymap.frame import Frame
 from models.citymap.gazetteer.name_columns import plain_code
 from models.citymap.points import Ints, bounding_corners
 from models.citymap.types import Floats
+from models.language.languages.translation import translate
 from models.language.measures import CharacterSpan, TextSpan, find_measures, overlaps
 from models.language.mentions.codes.coordinates import CodedBox, find_coordinates, find_links
 from models.language.mentions.lookup import NO_LINES, Lookup
@@ -25,7 +26,6 @@ POINT_M: Final = 15.0  # a box that reaches no farther from its middle is a poin
 HATCH_M, MAX_HATCHES = 20.0, 60  # between the lines that fill an area, and their number
 POSTCODE_MARGIN_M: Final = 30.0  # around the addresses with a postcode
 MIN_POSTCODE_ADDRESSES: Final = 3
-SEND_INSTEAD: Final = "send coordinates or a plus code"
 
 _W = WordLists(Path(__file__).parent / "words.toml")
 _PLUS_CODE = re.compile(
@@ -89,14 +89,17 @@ class CodeReader:
                 continue
             if len(objects) < MIN_POSTCODE_ADDRESSES:
                 if has_word:
-                    yield _unknown(text, match, f"'{match[0]}' is no postcode of this map")
+                    yield _unknown(text, match, translate("'{code}' is no postcode of this map", code=match[0]))
                 continue
             points_m = shapely.multipoints(self._lookup.gazetteer.middles_m[objects])
             yield _point(text, _span(match), _hatched(shapely.concave_hull(points_m, 0.4).buffer(POSTCODE_MARGIN_M)))
 
     def _undecodable(self, text: str) -> Iterator[Mention]:
         for match in _THREE_WORDS.finditer(text):
-            note = f"'{match[0]}' is a three-word address, which cannot be decoded; {SEND_INSTEAD}"
+            note = translate(
+                "'{code}' is a three-word address, which cannot be decoded; send coordinates or a plus code",
+                code=match[0],
+            )
             yield _unknown(text, match, note)
 
     def _places(self, text: str) -> Iterator[Mention]:
@@ -110,7 +113,10 @@ class CodeReader:
                 yield self._placed(text, box)
         for start, end in find_links(text):
             link = text[start:end]
-            note = f"'{link}' has no coordinates; {SEND_INSTEAD}" if _MAPS.search(link) else f"'{link}' was not read"
+            if _MAPS.search(link):
+                note = translate("'{link}' has no coordinates; send coordinates or a plus code", link=link)
+            else:
+                note = translate("'{link}' was not read", link=link)
             yield Mention(link, start, end, "unknown", note=note)
 
     def _plus_code(self, match: re.Match[str]) -> CodedBox | None:
@@ -131,10 +137,12 @@ class CodeReader:
         if outside_m > 0:
             swapped_m, swapped_corner_m = self._box_m(box.lon, box.lat, box.half_lon, box.half_lat)
             if self._outside_m(swapped_m) > 0:
-                note = f"'{words}' is {_rounded(outside_m)} outside the map and was not used"
+                note = _outside_note(words, outside_m)
                 return Mention(words, box.start, box.end, "unknown", note=note)
             middle_m, corner_m = swapped_m, swapped_corner_m
-            note = f"'{words}' is on the map only as longitude and latitude, so it was read in this order"
+            note = translate(
+                "'{code}' is on the map only as longitude and latitude, so it was read in this order", code=words
+            )
         half_m = np.abs(corner_m - middle_m)
         is_point = max(half_m) <= POINT_M
         area = (
@@ -209,7 +217,8 @@ def _hatched(area: shapely.Geometry) -> Floats:
     return np.array(ends).reshape(-1, 4)
 
 
-def _rounded(metres: float) -> str:
+def _outside_note(code: str, metres: float) -> str:
     if not np.isfinite(metres) or metres > 1e6:
-        return "far"
-    return f"{metres / 1000:.0f} km" if metres >= 1000 else f"{metres:.0f} m"
+        return translate("'{code}' is far outside the map and was not used", code=code)
+    distance = f"{metres / 1000:.0f} km" if metres >= 1000 else f"{metres:.0f} m"
+    return translate("'{code}' is {distance} outside the map and was not used", code=code, distance=distance)
