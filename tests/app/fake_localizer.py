@@ -1,6 +1,7 @@
 """A localizer without a model: what a test needs to see what reached it, to hold it up and to make it fail."""
 
 import threading
+from dataclasses import replace
 
 from index.answering.answers import (
     Answer,
@@ -52,7 +53,7 @@ class FakeLocalizer:
         for query in queries:
             if self._is_told("bad", query):
                 raise RuntimeError("secret: " + query.description)
-        return [self._answer(query) for query in queries]
+        return [replace(self._answer(query), language=query.language or "en") for query in queries]
 
     def describe(self, position_m):
         self.positions.append(position_m)

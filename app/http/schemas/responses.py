@@ -109,7 +109,7 @@ class LocalizeResponse(_Out):
     ros: PoseWithCovarianceStamped | None = Field(None, description="only if requested and there is an estimate")
     question: Question | None = Field(
         description="the question whose reply is expected to narrow the position most; send the reply in `answers`. "
-        "Asked if status is ambiguous; if it is no_match on a map with names, for an English text about a place inside "
+        "Asked if status is ambiguous; if it is no_match on a map with names, for a text about a place inside "
         "`within` (the replies alone can then give an answer); and if it is ok after a reply, until radius_m.p50 is "
         "10 m. Otherwise, or if no question helps, null"
     )

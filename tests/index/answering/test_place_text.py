@@ -4,6 +4,7 @@ import pytest
 from index.answering.place_text import place_text
 from models.citymap.gazetteer.gazetteer import EMPTY_GAZETTEER, build_gazetteer
 from models.citymap.gazetteer.name_columns import STREET_KIND, GazetteerObject
+from models.language.languages.translation import replies_in
 from tests.models.citymap.gazetteer.made_town import line, made_gazetteer, point
 
 
@@ -55,9 +56,13 @@ def test_a_thing_without_a_street(town) -> None:
     assert text == "30 m north of Café Zoë"
 
 
-def test_what_is_large_is_beside_its_edge() -> None:
+@pytest.fixture
+def park():
     corners = [(0.0, 0.0), (600.0, 0.0), (600.0, 600.0), (0.0, 600.0), (0.0, 0.0)]
-    park = build_gazetteer([GazetteerObject(("leisure/park",), ("Great Park",))], [line(*corners)], [True])
+    return build_gazetteer([GazetteerObject(("leisure/park",), ("Great Park",))], [line(*corners)], [True])
+
+
+def test_what_is_large_is_beside_its_edge(park) -> None:
     assert place_text(park, np.array([300.0, -20.0])) == "20 m south of Great Park"
     assert place_text(park, np.array([300.0, -80.0])) is None
 
@@ -107,7 +112,7 @@ def test_the_nearest_street_is_told() -> None:
         ),
         (
             "fr",
-            "à l’angle West 24th Street / 10th Avenue",
+            "à l\u2019angle West 24th Street / 10th Avenue",
             "West 25th Street, entre 9th Avenue et 10th Avenue",
             "West 25th Street, à 40 m du croisement avec 9th Avenue",
         ),

@@ -1,6 +1,7 @@
 import pytest
 
 from index.asking.question_spec import MAX_CHOICES, OPEN_QUESTIONS, OTHER, UNKNOWN, QuestionSpec
+from models.language.languages.translation import replies_in
 from models.language.lexicon.lexicon import load_lexicon
 from models.language.lexicon.question_classes import load_question_classes
 
@@ -67,3 +68,59 @@ def test_an_open_question_offers_names():
 
 def test_only_classes_of_maps_are_asked_about():
     assert set(load_question_classes().things) <= set(load_lexicon().labels) - load_lexicon().elsewhere
+
+
+@pytest.mark.parametrize(
+    ("code", "texts", "choices"),
+    [
+        (
+            "fi",
+            ("Onko noin 10 metrin säteellä puu?", "Missä suunnassa on lähin katuvalo?", "Millä kadulla olet?"),
+            ("Punainen", "Harmaa", "Jokin muu väri", "En tiedä"),
+        ),
+        (
+            "sv",
+            (
+                "Finns det ett träd inom ungefär 10 meter från dig?",
+                "Åt vilket håll ligger närmaste gatlykta?",
+                "Vilken gata är du på?",
+            ),
+            ("Röd", "Grå", "En annan färg", "Jag vet inte"),
+        ),
+        (
+            "de",
+            (
+                "Gibt es im Umkreis von etwa 10 Metern einen Baum?",
+                "In welcher Richtung ist die nächste Straßenlaterne?",
+                "In welcher Straße sind Sie?",
+            ),
+            ("Rot", "Grau", "Eine andere Farbe", "Ich weiß es nicht"),
+        ),
+        (
+            "fr",
+            (
+                "Y a-t-il un arbre à moins de 10 mètres de vous environ\u00a0?",
+                "Dans quelle direction se trouve le réverbère le plus proche\u00a0?",
+                "Dans quelle rue êtes-vous\u00a0?",
+            ),
+            ("Rouge", "Gris", "Une autre couleur", "Je ne sais pas"),
+        ),
+        (
+            "es",
+            (
+                "¿Hay un árbol en un radio de unos 10 metros?",
+                "¿En qué dirección está la farola más cercana?",
+                "¿En qué calle estás?",
+            ),
+            ("Rojo", "Gris", "Otro color", "No lo sé"),
+        ),
+    ],
+)
+def test_questions_in_other_languages(code, texts, choices):
+    english = ALL[2].question()
+    with replies_in(code):
+        assert tuple(ALL[n].question().text for n in (0, 1, 3)) == texts
+        colour = ALL[2].question()
+    assert tuple(choice.text for choice in colour.choices) == choices
+    assert colour.id == english.id
+    assert [choice.value for choice in colour.choices] == [choice.value for choice in english.choices]

@@ -1684,7 +1684,7 @@ export interface components {
             heat_map: components["schemas"]["HeatMap"] | null;
             /** @description only if requested and there is an estimate */
             ros?: components["schemas"]["PoseWithCovarianceStamped"] | null;
-            /** @description the question whose reply is expected to narrow the position most; send the reply in `answers`. Asked if status is ambiguous; if it is no_match on a map with names, for an English text about a place inside `within` (the replies alone can then give an answer); and if it is ok after a reply, until radius_m.p50 is 10 m. Otherwise, or if no question helps, null */
+            /** @description the question whose reply is expected to narrow the position most; send the reply in `answers`. Asked if status is ambiguous; if it is no_match on a map with names, for a text about a place inside `within` (the replies alone can then give an answer); and if it is ok after a reply, until radius_m.p50 is 10 m. Otherwise, or if no question helps, null */
             question: components["schemas"]["Question"] | null;
             crs: components["schemas"]["CrsOut"];
             provenance: components["schemas"]["Provenance"];

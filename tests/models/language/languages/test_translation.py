@@ -1,4 +1,5 @@
 import ast
+from pathlib import Path
 from string import Formatter
 
 import pytest
@@ -18,8 +19,8 @@ from models.language.languages.translation import (
 from models.language.lexicon.question_classes import load_question_classes
 from models.language.measures import COMPASS
 from models.posterior.nearby_objects import QUARTERS
-from tests.encoding import ROOT
 
+ROOT = Path(__file__).resolve().parents[4]
 FOREIGN = [code for code in REPLY_LANGUAGES if code != "en"]
 
 
