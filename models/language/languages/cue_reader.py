@@ -26,7 +26,6 @@ MAX_MEASURE_M: Final = 5000.0
 RELATIONS: Final = frozenset(get_args(Relation))
 _PAUSE: Final = re.compile(r"[.,;:!?\n()–—]+(?:\s|$)|\s-\s")  # noqa: RUF001
 _DIGITS: Final = r"\d+(?:[.,]\d+)?"
-_ME: Final = re.compile(r"^\s*\w{1,4}(?!\w)")
 
 
 @dataclass(slots=True)

@@ -5,7 +5,7 @@ import tomllib
 import unicodedata
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cache, cached_property, lru_cache
 from itertools import chain
 from pathlib import Path
 from typing import Any, Final
@@ -50,6 +50,7 @@ def lower(text: str) -> str:
     return text.replace("İ", "i").lower()[: len(text)]
 
 
+@lru_cache(maxsize=256)  # every question about a text folds it
 def fold(text: str) -> str:
     """Return a text in lower case without accents, with as many characters."""
     return "".join(

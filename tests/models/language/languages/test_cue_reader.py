@@ -78,3 +78,11 @@ def test_winds() -> None:
     assert (north.degrees, southeast.degrees) == (0.0, 135.0)
     assert not north.is_of
     assert southeast.is_of
+
+
+def test_the_speaker_is_on_the_first_of_several_streets() -> None:
+    assert cues(("de",), "AAAAA, BBBBB", "AAAAA", "BBBBB") == [("inside", None), ("near", None)]
+
+
+def test_a_word_with_an_accent_is_no_and() -> None:
+    assert cues(("it",), "il Aaaaa è alla mia destra, Bbbbb", "Aaaaa", "Bbbbb") == [("seen", 90.0), ("seen", None)]

@@ -31,6 +31,7 @@ def test_corners(lookup, text, words) -> None:
 
 def test_numbered_streets_in_spanish(lookup) -> None:
     assert ("street", "calle 25") in mentions("Estoy en la calle 25, delante de una farmacia", lookup)
+    assert ("street", "25") in mentions("Estoy en la 25, delante de una farmacia", lookup)
     assert ("street", "Décima") in mentions("Estoy en la Décima, delante de una farmacia", lookup)
 
 
@@ -61,3 +62,10 @@ def test_german_nouns_are_no_unknown_names(lookup) -> None:
 def test_a_language_without_a_table_gives_names(lookup) -> None:
     [mention] = find_mentions("Jsem u Bottino", lookup, tabulated(("cs",)))
     assert mention.cue.angle is None
+
+
+@pytest.mark.parametrize(("code", "text"), [("de", "zwischen A und B"), ("fi", "A ja B välissä")])
+def test_between(code, text) -> None:
+    first, second = text.index("A"), text.index("B")
+    assert tabulated((code,)).is_between(text, first, first + 1, second, second + 1)
+    assert not tabulated((code,)).is_between("A und B", 0, 1, 6, 7)
