@@ -47,8 +47,8 @@ class English:
         """Return the compass directions of a text."""
         return find_bearings(text)
 
-    def meets(self, text: str, start: int, end: int) -> bool:
-        """Return whether the words at start..end, between two streets, may say that these meet."""
+    def meets(self, text: str, first: int, start: int, end: int, last: int) -> bool:
+        """Return whether a text may say that the streets at first..start and end..last meet."""
         comma = text[start:end].strip() == ","
         # "in Rochstraße, Münzstraße is just behind me"
         return _MEETS.fullmatch(text, start, end) is not None and not comma

@@ -20,7 +20,7 @@ MIN_SHORTENED: Final = 6  # letters of a word that may be a shorter form of anot
 MAX_DROPPED: Final = 3  # letters of a base form beyond these
 _SINGLE: Final = str.maketrans({"ß": "s", "æ": "a", "œ": "o", "ø": "o", "ł": "l", "đ": "d", "ı": "i", "İ": "i"})  # noqa: RUF001
 _GAP: Final = r"[\s'’-]+"  # noqa: RUF001
-_PARTS: Final = ("words", "cues", "numbers", "metres", "winds", "discourse", "nouns", "ordinals", "streets")
+_PARTS: Final = ("words", "cues", "numbers", "metres", "winds", "discourse", "nouns", "ordinals", "streets", "addresses")
 Nouns = Mapping[str, tuple[tuple[str, float], ...]]
 Table = Mapping[str, Mapping[str, Any]]
 
@@ -72,8 +72,11 @@ class LanguageTable:
         self.stop |= {plain for words in lists for word in words if "*" not in word for plain in plain_words(word)}
         articles = _words(self._joined("words", "articles", " ").split())
         self._between_words = rf"(?:(?:{articles}){_GAP})" + "{0,3}" if articles else ""
+        self.elided_articles = frozenset(self._joined("words", "elided_articles", " ").split())
         self.ands = _pattern(self._joined("words", "and", " ").split(), lower)  # Italian "e" is "and", "è" is "is"
-        self.corners = _pattern(self._joined("words", "corner", " ").split())
+        corners = self._joined("words", "corner", " ").split()
+        self.corners = _pattern(corners)
+        self.corner_words = {plain for word in corners for plain in plain_words(word.removesuffix("*"))}
         self.between = _pattern(self._joined("words", "between", " ").split())
         self.winds = {
             wind: _pattern(_phrases(self._joined("winds", wind, "|")))
@@ -142,7 +145,7 @@ class LanguageTable:
             str(entry) for table in self._tables for name in ("cues", "discourse") for entry in table[name].values()
         )
         words = (word for phrase in phrases for word in phrase.replace("|", " ").split() if not set(word) & {"*", "~"})
-        lists = (str(table["words"][name]) for table in self._tables for name in ("and", "articles"))
+        lists = (str(table["words"][name]) for table in self._tables for name in ("and", "articles", "corner"))
         more = (word for entry in lists for word in entry.split() if "*" not in word)
         return self.stop | frozenset(plain for word in chain(words, more) for plain in plain_words(word))
 
@@ -235,3 +238,16 @@ def load_table(codes: tuple[str, ...]) -> LanguageTable:
 def table_codes() -> frozenset[str]:
     """Return the codes of the languages with a table."""
     return frozenset(path.stem for path in DIRECTORY.glob("*.toml"))
+
+
+@cache
+def address_words(name: str) -> tuple[str, ...]:
+    """Return the expressions of an entry about house numbers in all languages, long ones first."""
+    entries = (_load(code)["addresses"].get(name, "") for code in sorted(table_codes()))
+    phrases = dict.fromkeys(phrase for entry in entries for phrase in _phrases(entry))
+    return tuple(_spaced(phrase) for phrase in sorted(phrases, key=len, reverse=True))
+
+
+def _spaced(phrase: str) -> str:
+    ending = r"(?![^\W\d_])" if phrase[-1].isalpha() else ""
+    return re.escape(phrase).replace(r"\ ", r"\s+") + ending

@@ -45,9 +45,13 @@ class Tabulated:
         """Return the compass directions of a text."""
         return self._cues.find_bearings(text)
 
-    def meets(self, text: str, start: int, end: int) -> bool:
-        """Return whether the words at start..end, between two streets, may say that these meet."""
+    def meets(self, text: str, first: int, start: int, end: int, last: int) -> bool:
+        """Return whether a text may say that the streets at first..start and end..last meet."""
         between = fold(text[start:end])
+        if not between.strip():  # "angolo Via Roma Via Milano"
+            return self._has_corner(text, first - MAX_APART // 2, first) or self._has_corner(
+                text, last, last + MAX_APART // 2
+            )
         rest = self.table.corners.sub(" ", fold(self.table.ands.sub(" ", lower(text[start:end]))))
         joined = rest != between or re.search(r"[/&+@]|-\s*$", between) is not None
         return joined and all(len(word) <= MAX_SMALL_WORD for word in _MARKS.split(rest)) and "." not in between
@@ -69,6 +73,8 @@ class Tabulated:
         """Return whether a text is about what is between two things at first..start and end..last."""
         folded = fold(text)
         if self.table.ands.search(lower(text), start, end) is None and text[start:end].strip(" ") != "-":
+            return False
+        if self._has_corner(text, first - MAX_APART // 2, first):  # "all'angolo tra Via Roma e Via Milano"
             return False
         after = self.table.between.search(folded, last, last + MAX_APART // 2)
         return self.begins_between(text, first) or (

@@ -107,7 +107,7 @@ def _addresses_apart(
 
 
 def _addresses_of_places(text: str, mentions: Sequence[Mention], lookup: Lookup) -> Iterator[Mention]:
-    """Yield the addresses of places that are no streets: "Stadtbahnbogen 96"."""
+    """Yield the addresses of places that are no streets of the map: "Stadtbahnbogen 96"."""
     taken = [mention for mention in mentions if mention.form in ("street", "address")]
     words, end = split_words(text), 0
     for first, word in enumerate(words):
@@ -115,7 +115,9 @@ def _addresses_of_places(text: str, mentions: Sequence[Mention], lookup: Lookup)
             continue
         for last in reversed(range(first, min(first + MAX_PLACE_WORDS, len(words)))):
             address = _address_of_place(text, words[first : last + 1], lookup)
-            if address is not None and not overlaps(address, taken):
+            characters = words[last].end - word.start
+            longer = [street for street in taken if street.form == "address" or len(street.text) >= characters]
+            if address is not None and not overlaps(address, longer):
                 end = address.end
                 yield address
                 break

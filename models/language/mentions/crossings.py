@@ -66,7 +66,7 @@ def _combine(
     if language.is_between(text, one.start, *between, other.end):
         span = _span(one, other, main, lookup)
         return span and _place_in_text(span, *whole)
-    if not (language.meets(text, *between) or language.meets_at_end(text, *between, other.end)):
+    if not (language.meets(text, one.start, *between, other.end) or language.meets_at_end(text, *between, other.end)):
         return None
     if not is_last and language.begins_between(text, other.start):
         return None

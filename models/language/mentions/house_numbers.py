@@ -5,35 +5,41 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Final
 
+from models.language.languages.table import address_words
 from models.language.mentions.word_lists import english
 
 MAX_RANGE: Final = 40  # between the ends of "46-48"; more is a block and a house, such as "1-296"
 MAX_FRACTION: Final = 8  # between the ends of "16/18"; more is a corner or a flat
 
-_WORDS = english()
+
+
+def _pattern(name: str) -> str:
+    return "|".join((english().text("addresses", name), *address_words(name)))
+
+
 _LETTER = r"[^\W\d_]"
 _PART = rf"\d{{1,5}}{_LETTER}?(?!\w)"
 # A letter apart is large, or ends the address: "52 B is", "52 b."; a flat may follow it.
 _APART = r"(?-i:(?!I)[A-ZА-Я](?![\w'’.]\w)(?!\w)|(?![ai])[a-zа-я](?=\s*(?:[,;.!?)\n]|$|\d)))"  # noqa: RUF001
-_FLAT = rf"(?<=[^\W\d])\s+\d{{1,4}}(?!\w|\.\d)|,?\s+(?:{_WORDS.text('addresses', 'flat')})\.?\s?#?\w{{1,5}}\b"
+_FLAT = rf"(?<=[^\W\d])\s+\d{{1,4}}(?!\w|\.\d)|,?\s+(?:{_pattern('flat')})\.?\s?#?\w{{1,5}}\b"
 _NUMBER = (
     rf"(?P<number>{_PART}(?:\s?[-–/;+]\s?(?:{_PART}|{_LETTER}(?!\w)))*"  # noqa: RUF001
     rf"(?:\s?(?:bis|ter|quater)\b|\s(?:{_APART}))?(?:\s?(?:с|стр\.?|к|корп\.?)\s?\d+)?|\d{{1,5}}\s?[號号])"  # noqa: RUF001
     rf"(?:{_FLAT})?"
-    rf"(?![\w-]|[.:]\d|\s*(?:{_WORDS.text('addresses', 'counted')}))"
+    rf"(?![\w-]|[.:]\d|\s*(?:{_pattern('counted')}))"
 )
-_MARK = rf"(?P<mark>(?:{_WORDS.text('addresses', 'mark')})\s*)"
-_OTHER = _WORDS.pattern("addresses", "other", r"\b(?:{})\s+$")
+_MARK = rf"(?P<mark>(?:(?:{_pattern('mark')})\s*){{1,2}})"
+_OTHER = re.compile(rf"\b(?:{_pattern('other')})\s+$", re.IGNORECASE)
 _BEFORE = re.compile(
-    rf"(?<![\w.,/-])(?<!\d[ ,]){_MARK}?{_NUMBER}(?P<link>\s*,\s*|\s+(?:{_WORDS.text('addresses', 'on')})\s+|\s+)$",
+    rf"(?<![\w.,/-])(?<!\d[ ,]){_MARK}?{_NUMBER}(?P<link>\s*,\s*|\s+(?:{_pattern('on')})(?:\s*,\s*|\s+|(?<=['’]))|\s+)$",
     re.IGNORECASE,
 )
 _AFTER = re.compile(rf"\s*(?P<comma>,)?\s+{_MARK}?{_NUMBER}(?!\s*(?:and|&|/)\s*\d)", re.IGNORECASE)
 _LONGEST = 40  # characters of a number with its mark before a street
-_HOUSE_FOLLOWS = _WORDS.pattern("addresses", "before", r"(?:^|[.,;:!?\n]|\b(?:{}))\s*$")
+_HOUSE_FOLLOWS = re.compile(rf"(?:^|[.,;:!?\n]|\b(?:{_pattern('before')}))\s*$", re.IGNORECASE)
 _END = re.compile(r"\s*(?:[.,;!?)\n]|$)")
 _APART_FROM_STREET = re.compile(
-    rf"\b(?:(?:{_WORDS.text('addresses', 'door')})|(?P<loose>{_WORDS.text('addresses', 'opposite')}))\s*{_NUMBER}",
+    rf"\b(?:(?:{english().text('addresses', 'door')})|(?P<loose>{english().text('addresses', 'opposite')}))\s*{_NUMBER}",
     re.IGNORECASE,
 )
 _ALONE = re.compile(rf"\s*{_MARK}?{_NUMBER}\s*", re.IGNORECASE)

@@ -12,6 +12,7 @@ from models.language.measures import COMPASS_OF_LETTERS, ONES, ORDINALS, TENS, o
 _WORD = re.compile(r"\d+(?:[-/]\d+)?\w*|[^\W\d_](?:['’`´]?[\w\u0300-\u036f])*|&|@|\+|/")  # noqa: RUF001  # a typeset apostrophe
 _APOSTROPHE = re.compile(r"['’`´]")  # noqa: RUF001
 _OWNED = re.compile(r"['’`´]s$", re.I)  # noqa: RUF001
+ELIDED_ARTICLE: Final = re.compile(r"(?:[dl]|un|(?:a|co|da|de|ne|que|su)ll|quest)['’](?=\w)", re.IGNORECASE)  # noqa: RUF001
 ARTICLES: Final = frozenset(("the", "a", "an"))
 _SIMPLE: Final = re.compile(r"[a-z]+(?: [a-z]+)*")
 _SPELT: Final = frozenset(ORDINALS) | frozenset(TENS)  # the parts of "forty second"

@@ -15,7 +15,7 @@ from models.language.measures import find_measures
 from models.language.mentions.abbreviations import WORDS as STREET_WORDS
 from models.language.mentions.cues import Form
 from models.language.mentions.lookup import EMPTY, Lookup, Match
-from models.language.mentions.names import ORDINAL, Word, split_words
+from models.language.mentions.names import ELIDED_ARTICLE, ORDINAL, Word, plain_word, split_words
 from models.language.mentions.street_spans import match_street
 from models.language.mentions.word_lists import english
 
@@ -53,7 +53,7 @@ class Span:
 
 def find_spans(text: str, lookup: Lookup, language: Language) -> tuple[list[Word], list[Span]]:
     """Return the words of a text and its spans, in order and without overlaps."""
-    raw = split_words(text)
+    raw = [_without_article(word, text, lookup, language) for word in split_words(text)]
     words = [_at_start(word, raw[n - 1] if n else None, text, lookup) for n, word in enumerate(raw)]
     cased = any(word.is_capital for word in words[1:])
     strange = [word.plain for word in words if lookup.is_strange(word.plain)] if language.table is None else []
@@ -77,6 +77,18 @@ def find_spans(text: str, lookup: Lookup, language: Language) -> tuple[list[Word
         attach_objects(span, lookup)
         for span in _joined(_as_whole_names(chosen, words, text, lookup), words, text, language)
     ]
+
+
+def _without_article(word: Word, text: str, lookup: Lookup, language: Language) -> Word:
+    """Return a word without its elided article, unless it is a name: "l'avenue", but "L'Occitane"."""
+    article = ELIDED_ARTICLE.match(text, word.start, word.end)
+    if article is None or language.table is None:
+        return word
+    start = article.end()
+    rest = plain_word(text[start : word.end])
+    is_name = not lookup.is_strange(word.plain) and (article[0][0].isupper() or article[0].startswith("d"))
+    is_known = not lookup.is_strange(rest) or bool(language.table.kinds((rest,)))
+    return replace(word, plain=rest, start=start, is_capital=text[start].isupper()) if is_known and not is_name else word
 
 
 def correct_noun(word: str, lookup: Lookup) -> str:
