@@ -7,10 +7,11 @@ from typing import Final, get_args
 
 import numpy as np
 
-from models.language.languages.table import LanguageTable, fold, lower
+from models.language.languages.table import LETTER, LanguageTable, fold, lower
 from models.language.measures import Bearing, Measure
 from models.language.mentions.cue_reader import MentionSpan, ReadCue
 from models.language.mentions.cues import Relation
+from models.language.mentions.unspaced import is_unspaced
 
 EGO_DEG: Final = {
     "ahead": 0.0, "ahead_right": 45.0, "right": 90.0, "behind_right": 135.0,
@@ -24,7 +25,7 @@ COMPASS_DEG: Final = {
 LOOSE_METRES: Final = 0.75  # units from this on, other than metres and kilometres, are loose: steps, blocks
 MAX_MEASURE_M: Final = 5000.0
 RELATIONS: Final = frozenset(get_args(Relation))
-_PAUSE: Final = re.compile(r"[.,;:!?\n()–—]+(?:\s|$)|\s-\s")  # noqa: RUF001
+_PAUSE: Final = re.compile(r"[.,;:!?\n()–—]+(?:\s|$)|\s-\s|[。，、；：！？（）]")  # noqa: RUF001
 _DIGITS: Final = r"\d+(?:[.,]\d+)?"
 
 
@@ -50,7 +51,7 @@ class TableCueReader:
         ]
         unit = "|".join(pattern.pattern for pattern, _ in self._units)
         count = rf"(?:(?P<digits>{_DIGITS})|(?P<word>{'|'.join(numbers) or '(?!)'}))"
-        self._measure = re.compile(rf"(?<!\w)(?<!\d[.,]){count}[\s-]*(?P<unit>{unit or '(?!)'})(?!\w)")
+        self._measure = re.compile(rf"(?<!{LETTER})(?<!\d[.,]){count}[\s-]*(?P<unit>{unit or '(?!)'})(?!{LETTER})")
 
     def find_measures(self, text: str) -> list[Measure]:
         """Return the distances of a text."""
@@ -198,7 +199,7 @@ class TableCueReader:
         for one in phrases:
             folded = folded[: one.start] + " " * (one.end - one.start) + folded[one.end :]
         return any(
-            len(word) > 3 and word not in self._table.stop and not word.isdecimal()
+            len(word) > 3 and word not in self._table.stop and not word.isdecimal() and not is_unspaced(word)
             for word in re.findall(r"\w+", folded[start:end])
         )
 

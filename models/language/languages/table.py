@@ -10,8 +10,11 @@ from itertools import chain
 from pathlib import Path
 from typing import Any, Final
 
+from marisa_trie import Trie
+
 from models.citymap.kinds.vocabulary import load_vocabulary
 from models.language.mentions.names import plain_words
+from models.language.mentions.unspaced import UNSPACED, known_words
 
 DIRECTORY: Final = Path(__file__).parent
 MIN_SHARED: Final = 4  # letters that an inflected word and its base form begin with
@@ -19,8 +22,20 @@ MAX_ENDING, MAX_LONG_ENDING = 6, 8  # letters of an inflected word beyond these,
 MIN_SHORTENED: Final = 6  # letters of a word that may be a shorter form of another
 MAX_DROPPED: Final = 3  # letters of a base form beyond these
 _SINGLE: Final = str.maketrans({"ß": "s", "æ": "a", "œ": "o", "ø": "o", "ł": "l", "đ": "d", "ı": "i", "İ": "i"})  # noqa: RUF001
-_GAP: Final = r"[\s'’-]+"  # noqa: RUF001
-_PARTS: Final = ("words", "cues", "numbers", "metres", "winds", "discourse", "nouns", "ordinals", "streets", "addresses")
+LETTER: Final = rf"[^\W{UNSPACED}]"  # next to a letter, a word begins or ends only at a space
+_GAP: Final = rf"(?:[\s'’-]+|(?<=[{UNSPACED}])|(?=[{UNSPACED}]))"  # noqa: RUF001
+_PARTS: Final = (
+    "words",
+    "cues",
+    "numbers",
+    "metres",
+    "winds",
+    "discourse",
+    "nouns",
+    "ordinals",
+    "streets",
+    "addresses",
+)
 Nouns = Mapping[str, tuple[tuple[str, float], ...]]
 Table = Mapping[str, Mapping[str, Any]]
 
@@ -67,6 +82,7 @@ class LanguageTable:
         self.stop = frozenset(
             plain for word in self._joined("words", "stop", " ").split() for plain in plain_words(word)
         )
+        self.inflects_names = any(table["words"].get("inflects_names", False) for table in self._tables)
         self.has_capital_nouns = any(table["words"].get("capital_nouns", False) for table in self._tables)
         lists = (self._joined("words", name, " ").split() for name in ("and", "corner", "between", "articles"))
         self.stop |= {plain for words in lists for word in words if "*" not in word for plain in plain_words(word)}
@@ -102,7 +118,7 @@ class LanguageTable:
 
     @cached_property
     def street_types(self) -> dict[str, str]:
-        """The English kind of a numbered street by its words: "calle" 41 is 41st Street."""
+        """The English kind or wind of a numbered street by its words: "calle" 41 "este" is East 41st Street."""
         return {
             fold(word): kind
             for table in self._tables
@@ -134,8 +150,8 @@ class LanguageTable:
         ending = re.match(r"\w*", after)
         assert ending is not None
         after = after[ending.end() :]
-        lead = rf"(?<!\w){_words([before])}(?:{_GAP}{self._between_words}|{_GAP})$" if before.strip() else ""
-        tail = rf"\s*(?:\w+\s+)?{_words([after])}(?!\w)" if after.strip() else ""
+        lead = rf"(?<!{LETTER}){_words([before])}(?:{_GAP}{self._between_words}|{_GAP})$" if before.strip() else ""
+        tail = rf"\s*(?:\w+\s+)?{_words([after])}(?!{LETTER})" if after.strip() else ""
         return Phrase(re.compile(lead) if lead else None, re.compile(tail) if tail else None, None, fold(ending[0]))
 
     @cached_property
@@ -155,11 +171,20 @@ class LanguageTable:
         vocabulary, nouns = load_vocabulary(), dict[str, tuple[tuple[str, float], ...]]()
         english = vocabulary.nouns("en")
         for code, table in zip(self.codes, self._tables, strict=True):
-            for noun, kinds in vocabulary.nouns(code).items() if code in vocabulary.languages else ():
-                nouns[" ".join(plain_words(noun))] = kinds
+            for variant in vocabulary.languages:  # zh-CN and zh-TW of zh
+                for noun, kinds in vocabulary.nouns(variant).items() if variant.partition("-")[0] == code else ():
+                    nouns[" ".join(plain_words(noun))] = kinds
+            own = dict[str, dict[str, float]]()
             for noun, words in table["nouns"].items():
-                nouns.update((" ".join(plain_words(word)), english[noun]) for word in _phrases(words))
+                for word in _phrases(words):
+                    own.setdefault(" ".join(plain_words(word)), {}).update(english[noun])
+            nouns.update((noun, tuple(kinds.items())) for noun, kinds in own.items())
         return nouns
+
+    @cached_property
+    def unspaced_nouns(self) -> Trie:
+        """The nouns of scripts without spaces between words."""
+        return known_words(self.nouns)
 
     @cached_property
     def _by_beginning(self) -> dict[str, list[str]]:
@@ -218,7 +243,7 @@ def _word(word: str) -> str:
 
 def _pattern(phrases: Iterable[str], fold: Callable[[str], str] = fold) -> re.Pattern[str]:
     words = _words(phrases, fold)
-    return re.compile(rf"(?<!\w)(?:{words})(?!\w)") if words else re.compile(r"(?!)")
+    return re.compile(rf"(?<!{LETTER})(?:{words})(?!{LETTER})") if words else re.compile(r"(?!)")
 
 
 @cache

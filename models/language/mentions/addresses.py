@@ -15,6 +15,7 @@ from models.language.mentions.lookup import AddressMatch, Lookup
 from models.language.mentions.mentions import Mention
 from models.language.mentions.names import STREET_ABBREVIATIONS, Word, full_words, plain_words, split_words
 
+OTHER_STREET_WEIGHT: Final = 0.5  # of a number of a street that is not the nearest in the text
 MAX_PLACE_WORDS: Final = 5  # of a place with house numbers that is no street
 _CODE = r"(?:[A-Z]{1,3}-)?(?:\d{2,4}[ -]\d{2,4}|\d{4,6}|[A-Z]{1,2}\d[A-Z\d]? \d[A-Z]{2})(?!\w)"
 _NAME = r"[^\W\d_a-z][\w'’.-]*(?:[ -](?:(?:am|an|der|de|do|da|la|le|of|upon)[ -])?[^\W\d_a-z][\w'’.-]*){0,3}"  # noqa: RUF001
@@ -97,13 +98,14 @@ def _addresses_apart(
     for number, is_marked in numbers_apart(text) if streets else ():
         if overlaps(number, taken):
             continue
-        for street in sorted(
-            streets, key=lambda street: (street.start > number.start, abs(street.start - number.start))
-        ):
-            match = lookup.address(number.number, street.objects)
-            if match is not None and (is_marked or match.match.numbers):
-                yield _mention(text, number.start, number.end, match)
-                break
+        nearest = sorted(streets, key=lambda street: (street.start > number.start, abs(street.start - number.start)))
+        matches = [match for street in nearest if (match := lookup.address(number.number, street.objects))]
+        exact = [match for match in matches if match.match.numbers]
+        if exact or (matches and is_marked):
+            mention = _mention(text, number.start, number.end, (exact or matches)[0])
+            others = [match.objects for match in exact[1:]]  # at a corner it may be a number of either street
+            weights = np.concatenate([mention.weights, *(np.full(len(rows), OTHER_STREET_WEIGHT) for rows in others)])
+            yield replace(mention, objects=np.concatenate([mention.objects, *others]), weights=weights)
 
 
 def _addresses_of_places(text: str, mentions: Sequence[Mention], lookup: Lookup) -> Iterator[Mention]:

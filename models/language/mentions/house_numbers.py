@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from typing import Final
 
 from models.language.languages.table import address_words
+from models.language.mentions.unspaced import UNSPACED
 from models.language.mentions.word_lists import english
 
 MAX_RANGE: Final = 40  # between the ends of "46-48"; more is a block and a house, such as "1-296"
 MAX_FRACTION: Final = 8  # between the ends of "16/18"; more is a corner or a flat
-
 
 
 def _pattern(name: str) -> str:
@@ -26,22 +26,20 @@ _NUMBER = (
     rf"(?P<number>{_PART}(?:\s?[-–/;+]\s?(?:{_PART}|{_LETTER}(?!\w)))*"  # noqa: RUF001
     rf"(?:\s?(?:bis|ter|quater)\b|\s(?:{_APART}))?(?:\s?(?:с|стр\.?|к|корп\.?)\s?\d+)?|\d{{1,5}}\s?[號号])"  # noqa: RUF001
     rf"(?:{_FLAT})?"
-    rf"(?![\w-]|[.:]\d|\s*(?:{_pattern('counted')}))"
+    rf"(?:(?<=[號号])|(?![\w-]))(?![.:]\d|\s*(?:{_pattern('counted')}))"
 )
 _MARK = rf"(?P<mark>(?:(?:{_pattern('mark')})\s*){{1,2}})"
 _OTHER = re.compile(rf"\b(?:{_pattern('other')})\s+$", re.IGNORECASE)
-_BEFORE = re.compile(
-    rf"(?<![\w.,/-])(?<!\d[ ,]){_MARK}?{_NUMBER}(?P<link>\s*,\s*|\s+(?:{_pattern('on')})(?:\s*,\s*|\s+|(?<=['’]))|\s+)$",
-    re.IGNORECASE,
+_LINK = rf"(?P<link>\s*,\s*|\s+(?:{_pattern('on')})(?:\s*,\s*|\s+|(?<=['’]))|\s+)"  # noqa: RUF001
+_BEFORE = re.compile(rf"(?<![\w.,/-])(?<!\d[ ,]){_MARK}?{_NUMBER}{_LINK}$", re.IGNORECASE)
+_AFTER = re.compile(
+    rf"\s*(?P<comma>,)?(?:\s+|(?<=[{UNSPACED}])){_MARK}?{_NUMBER}(?!\s*(?:and|&|/)\s*\d)", re.IGNORECASE
 )
-_AFTER = re.compile(rf"\s*(?P<comma>,)?\s+{_MARK}?{_NUMBER}(?!\s*(?:and|&|/)\s*\d)", re.IGNORECASE)
 _LONGEST = 40  # characters of a number with its mark before a street
 _HOUSE_FOLLOWS = re.compile(rf"(?:^|[.,;:!?\n]|\b(?:{_pattern('before')}))\s*$", re.IGNORECASE)
 _END = re.compile(r"\s*(?:[.,;!?)\n]|$)")
-_APART_FROM_STREET = re.compile(
-    rf"\b(?:(?:{english().text('addresses', 'door')})|(?P<loose>{english().text('addresses', 'opposite')}))\s*{_NUMBER}",
-    re.IGNORECASE,
-)
+_OPPOSITE = english().text("addresses", "opposite")
+_APART_FROM_STREET = re.compile(rf"\b(?:(?:{_pattern('door')})|(?P<loose>{_OPPOSITE}))\s*{_NUMBER}", re.IGNORECASE)
 _ALONE = re.compile(rf"\s*{_MARK}?{_NUMBER}\s*", re.IGNORECASE)
 _LEADING, _GLUE = re.compile(r"\d+"), re.compile(r"[\s`.號号]|(?<=\d)стр|корп")
 _RANGE = re.compile(rf"(\d+){_LETTER}?(?:([-/])(\d+){_LETTER}?)?")

@@ -16,7 +16,7 @@ from models.citymap.points import Ints
 from models.citymap.types import Floats
 from models.errors import IndexBroken
 from models.files import map_arrays
-from models.language.mentions.names import full_words, plain_words, street_forms
+from models.language.mentions.names import full_words, latin_spellings, plain_words, street_forms
 from models.strings import Postings, PostingsBuilder, merge_columns
 
 FILE: Final = "names.safetensors"
@@ -56,7 +56,8 @@ class NameTable:
                     key = " ".join(form), number
                     forms[key] = max(weight, forms.get(key, 0.0))
                 continue
-            for plain in (" ".join(plain_words(name)) for name in words.names):
+            spellings = (spelling for name in words.names for spelling in (name, *latin_spellings(name)))
+            for plain in (" ".join(plain_words(spelling)) for spelling in spellings):
                 if plain:
                     names.add(plain, number)
             if words.kinds:

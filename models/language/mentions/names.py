@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Final
 
+from anyascii import anyascii
+
 from models.language.measures import COMPASS_OF_LETTERS, ONES, ORDINALS, TENS, ordinal
 
 _WORD = re.compile(r"\d+(?:[-/]\d+)?\w*|[^\W\d_](?:['’`´]?[\w\u0300-\u036f])*|&|@|\+|/")  # noqa: RUF001  # a typeset apostrophe
@@ -24,8 +26,19 @@ STREET_ABBREVIATIONS: Final = {
     "ln": "lane", "pl": "place", "sq": "square", "ct": "court", "ter": "terrace", "pkwy": "parkway", "hwy": "highway",
     "expy": "expressway", "plz": "plaza", "xing": "crossing",
 }  # fmt: skip
-STREET_KINDS: Final = frozenset(STREET_ABBREVIATIONS.values()) | frozenset(
-    ["way", "alley", "row", "walk", "path", "esplanade", "circle", "loop", "bridge", "strasse", "allee", "damm"]
+_RUSSIAN_KINDS: Final = {
+    "ulitsa": "street", "pereulok": "lane", "bulvar": "boulevard", "prospekt": "avenue", "ploshchad": "square",
+    "proezd": "drive", "naberezhnaya": "embankment", "shosse": "highway", "tupik": "alley",
+}  # fmt: skip
+_CYRILLIC_KINDS: Final = (
+    "улица", "переулок", "бульвар", "проспект", "площадь", "проезд", "набережная", "шоссе", "тупик", "вулиця",
+)  # fmt: skip
+_TURKISH_KINDS: Final = ("sokagi", "sokak", "caddesi", "cadde", "bulvari", "yolu", "cikmazi", "meydani")
+_OTHER_KINDS: Final = (
+    "way", "alley", "row", "walk", "path", "esplanade", "circle", "loop", "bridge", "strasse", "allee", "damm",
+)  # fmt: skip
+STREET_KINDS: Final = frozenset(
+    (*STREET_ABBREVIATIONS.values(), *_RUSSIAN_KINDS, *_CYRILLIC_KINDS, *_TURKISH_KINDS, *_OTHER_KINDS)
 )
 # Words for kinds of streets that stand before a name, in plain form, with the little words between them and the name
 STREET_PREFIXES: Final = frozenset(
@@ -36,6 +49,8 @@ STREET_PREFIXES: Final = frozenset(
         "via", "viale", "piazza", "corso", "vicolo", "largo", "salita",
         "rua", "travessa", "praca", "alameda", "estrada", "calcada",
         "ulica", "ul", "aleja", "al", "plac", "pl", "duong", "hem", "jalan", "strada", "bulevardul", "sharia",
+        *_RUSSIAN_KINDS, *_CYRILLIC_KINDS, "odos", "leoforos", "plateia", "οδοσ", "λεωφοροσ", "πλατεια",
+        "شارع", "طريق", "ميدان", "רחוב", "שדרות", "דרך", "כיכר",
     )
 )  # fmt: skip
 _LINKS: Final = frozenset(
@@ -50,6 +65,9 @@ _LETTERS: Final = str.maketrans(
 _COMPASS: Final = frozenset(COMPASS_OF_LETTERS.values())
 _SHORT: Final = {"lexington": "lex", "madison": "mad", "broadway": "bway", "americas": "americas"}
 _COMPOUND: Final = re.compile(r"(strasse|str)$")
+# Scripts whose Latin spellings tell the name: Greek, Cyrillic, Armenian, Georgian, Hangul, kana
+_SPELT_IN_LATIN: Final = re.compile(r"[\u0370-\u058f\u10a0-\u11ff\u3040-\u30ff\uac00-\ud7af]")
+_GREEK: Final = re.compile(r"[\u0370-\u03ff]")
 MIN_LAST_NAME_CHARACTERS: Final = 3
 ORDINAL: Final = re.compile(r"\d+(?:st|nd|rd|th)")
 
@@ -125,8 +143,22 @@ def full_words(words: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(_COMPOUND.sub("strasse", word) if len(word) > 6 else word for word in full)
 
 
+def latin_spellings(name: str) -> tuple[str, ...]:
+    """Return Latin spellings of a name in another script, by its letters and as people write it; often none."""
+    if not _SPELT_IN_LATIN.search(name):
+        return ()
+    spelling = anyascii(name).replace("'", "")
+    popular = spelling.replace("oy", "ou") if _GREEK.search(name) else spelling  # Ermou
+    popular = re.sub(r"[iy]y\b", "y", popular)  # Chistoprudny
+    return tuple(dict.fromkeys((spelling, popular)))
+
+
 def street_forms(name: str) -> Iterator[tuple[tuple[str, ...], float]]:
     """Yield every form of a street's name with the probability that it means this street."""
+    for spelling in latin_spellings(name):
+        yield from street_forms(spelling)
+        kinds = [_RUSSIAN_KINDS[word] for word in plain_words(spelling) if word in _RUSSIAN_KINDS]
+        yield (*(word for word in plain_words(spelling) if word not in _RUSSIAN_KINDS), *kinds[:1]), 0.9
     full = full_words(plain_words(name))
     yield full, 1.0
     yield from _without_prefix(plain_words(name))

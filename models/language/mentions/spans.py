@@ -17,6 +17,7 @@ from models.language.mentions.cues import Form
 from models.language.mentions.lookup import EMPTY, Lookup, Match
 from models.language.mentions.names import ELIDED_ARTICLE, ORDINAL, Word, plain_word, split_words
 from models.language.mentions.street_spans import match_street
+from models.language.mentions.unspaced import split_unspaced
 from models.language.mentions.word_lists import english
 
 MAX_NAME_WORDS: Final = 6  # of a span
@@ -34,7 +35,7 @@ _ABBREVIATED, _ONE = _W.list("abbreviated"), _W.list("one")
 _SEEN_TOO, _OVER = _W.list("seen_too"), _W.list("over")
 _APPOSED = re.compile(r"\s*,\s*(?:the|a|an|that|our)\s+(?:\w+\s+)?|\s*,?\s+called\s+")
 _SENTENCE_END = re.compile(r"[.!?]\s*$")
-_PAUSE = re.compile(r"[.;!?\n,:()]")
+_PAUSE = re.compile(r"[.;!?\n,:()。，、；：！？（）]")  # noqa: RUF001
 _NAMED_SO = re.compile(r"\s*,\s*|\s+|\s*,?\s+called\s+")
 
 
@@ -53,7 +54,8 @@ class Span:
 
 def find_spans(text: str, lookup: Lookup, language: Language) -> tuple[list[Word], list[Span]]:
     """Return the words of a text and its spans, in order and without overlaps."""
-    raw = [_without_article(word, text, lookup, language) for word in split_words(text)]
+    known = [lookup.unspaced_words, *([] if language.table is None else [language.table.unspaced_nouns])]
+    raw = [_without_article(word, text, lookup, language) for word in split_unspaced(split_words(text), known)]
     words = [_at_start(word, raw[n - 1] if n else None, text, lookup) for n, word in enumerate(raw)]
     cased = any(word.is_capital for word in words[1:])
     strange = [word.plain for word in words if lookup.is_strange(word.plain)] if language.table is None else []
@@ -88,7 +90,9 @@ def _without_article(word: Word, text: str, lookup: Lookup, language: Language) 
     rest = plain_word(text[start : word.end])
     is_name = not lookup.is_strange(word.plain) and (article[0][0].isupper() or article[0].startswith("d"))
     is_known = not lookup.is_strange(rest) or bool(language.table.kinds((rest,)))
-    return replace(word, plain=rest, start=start, is_capital=text[start].isupper()) if is_known and not is_name else word
+    return (
+        replace(word, plain=rest, start=start, is_capital=text[start].isupper()) if is_known and not is_name else word
+    )
 
 
 def correct_noun(word: str, lookup: Lookup) -> str:
@@ -190,7 +194,8 @@ def _named(
     if _is_no_name(plain, language) or (is_kind and len(plain) == 1):
         return None
     match = lookup.named(plain)
-    if match is None and language.table is not None and (words[0].is_capital or not cased):
+    inflects = language.table is not None and language.table.inflects_names
+    if match is None and inflects and (words[0].is_capital or not cased):
         match = lookup.named_form(plain)
     if match is None:
         return None

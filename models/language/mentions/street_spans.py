@@ -12,6 +12,7 @@ from models.language.mentions.word_lists import english
 STREET_SCORE, TYPE_SCORE, WORD_SCORE = 5.0, 2.0, 3.0  # scores of street spans
 MEETING_SCORE: Final = 3.0  # of a street next to a numbered one
 ARTICLES_OF_STREETS: Final = frozenset(("la", "a", "na", "da", "le", "die", "der"))  # before its number alone: "la 41"
+WINDS: Final = frozenset(("north", "east", "south", "west"))
 _MEET: Final = frozenset(("and", "at", "&", "@", "/", "n"))
 _W = english()
 _STREET_BEFORE, _STREET_AFTER = _W.list("street_before"), _W.list("street_after")
@@ -53,16 +54,26 @@ def match_street(
 def _numbered(
     words: Sequence[Word], first: int, plain: tuple[str, ...], lookup: Lookup, table: LanguageTable
 ) -> Match | None:
-    """Return a numbered street of an English-speaking city: "calle 41", "la Quinta"."""
-    kind = table.street_types.get(plain[0]) or table.street_types.get(plain[-1])
+    """Return a numbered street of an English-speaking city: "calle 41", "la Quinta", "la 30 oeste"."""
     rest = [word for word in plain if word not in table.street_types]
-    if len(rest) != 1 or (kind is None and not (first and words[first - 1].plain in ARTICLES_OF_STREETS)):
+    types = [table.street_types[word] for word in plain if word in table.street_types]
+    winds = tuple(one for one in types if one in WINDS)
+    kinds = [one for one in types if one not in WINDS]
+    if len(rest) != 1 or not (kinds or _is_street_number(words, first, first + len(plain) - 1, table)):
         return None
     number = table.ordinals.get(rest[0]) or (int(rest[0]) if rest[0].isdecimal() and len(rest[0]) < 4 else None)
-    if number is None:
+    if number is None or len(winds) > 1:
         return None
-    kind = kind or ("street" if rest[0].isdecimal() else "avenue")
-    return lookup.street((ordinal(number), kind))
+    kind = kinds[0] if kinds else "street" if rest[0].isdecimal() else "avenue"
+    return lookup.street((*winds, ordinal(number), kind)) or lookup.street((ordinal(number), kind))
+
+
+def _is_street_number(words: Sequence[Word], first: int, last: int, table: LanguageTable) -> bool:
+    """Return whether a number alone is a street: "la 41", and "con 43" at the end of a phrase."""
+    before = words[first - 1].plain if first else ""
+    is_joined = table.ands.fullmatch(before) or table.corners.fullmatch(before)
+    is_end = last + 1 == len(words) or words[last + 1].start - words[last].end > 1
+    return before in ARTICLES_OF_STREETS or bool(is_joined and is_end)
 
 
 def _meets_ordinal(words: Sequence[Word], first: int, last: int) -> bool:
