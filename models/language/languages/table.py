@@ -10,11 +10,9 @@ from itertools import chain
 from pathlib import Path
 from typing import Any, Final
 
-from marisa_trie import Trie
-
 from models.citymap.kinds.vocabulary import load_vocabulary
 from models.language.mentions.names import plain_words
-from models.language.mentions.unspaced import UNSPACED, known_words
+from models.language.mentions.unspaced import UNSPACED, unspaced_words
 
 DIRECTORY: Final = Path(__file__).parent
 MIN_SHARED: Final = 4  # letters that an inflected word and its base form begin with
@@ -147,7 +145,7 @@ class LanguageTable:
         if "~" not in phrase:
             return Phrase(None, None, _pattern([phrase]))
         before, after = phrase.split("~", 1)
-        ending = re.match(r"\w*", after)
+        ending = re.match(f"{LETTER}*", after)
         assert ending is not None
         after = after[ending.end() :]
         lead = rf"(?<!{LETTER}){_words([before])}(?:{_GAP}{self._between_words}|{_GAP})$" if before.strip() else ""
@@ -182,9 +180,9 @@ class LanguageTable:
         return nouns
 
     @cached_property
-    def unspaced_nouns(self) -> Trie:
+    def unspaced_nouns(self) -> frozenset[str]:
         """The nouns of scripts without spaces between words."""
-        return known_words(self.nouns)
+        return unspaced_words(self.nouns)
 
     @cached_property
     def _by_beginning(self) -> dict[str, list[str]]:

@@ -9,7 +9,6 @@ from typing import Final
 
 import numpy as np
 from cachetools import LRUCache, cachedmethod
-from marisa_trie import Trie
 from rapidfuzz import fuzz, process
 
 from models.citymap.gazetteer.gazetteer import ADDRESS_KIND, WALKED_KIND, Gazetteer
@@ -22,7 +21,7 @@ from models.language.mentions.abbreviations import MAX_READINGS, written_out
 from models.language.mentions.house_numbers import NumberMatch, first_value, match_number, plain_number
 from models.language.mentions.name_table import NUMBER_SEPARATOR, NameTable
 from models.language.mentions.names import ARTICLES, full_words, plain_word, plain_words
-from models.language.mentions.unspaced import known_words
+from models.language.mentions.unspaced import unspaced_words
 from models.language.mentions.word_lists import english
 
 Nouns = Mapping[str, tuple[tuple[str, float], ...]]
@@ -143,9 +142,9 @@ class Lookup:
         return _by_beginning(self._table.words.all_keys)
 
     @cached_property
-    def unspaced_words(self) -> Trie:
+    def unspaced_words(self) -> frozenset[str]:
         """The words of names and streets in scripts without spaces between words."""
-        return known_words(chain(self._table.words.all_keys, self._table.street_words.all_keys))
+        return unspaced_words(chain(self._table.words.all_keys, self._table.street_words.all_keys))
 
     @property
     def street_words(self) -> Container[str]:

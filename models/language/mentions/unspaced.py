@@ -1,16 +1,14 @@
 """Split texts in scripts without spaces between words: Chinese and Japanese."""
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import Final
-
-from marisa_trie import Trie
 
 from models.language.mentions.names import Word
 
 UNSPACED: Final = r"\u3040-\u30ff\u3400-\u9fff\uff66-\uff9f"  # a range of letters: kana and Han
-MIN_CHARACTERS: Final = 2  # of a known word
+MIN_CHARACTERS, MAX_CHARACTERS = 2, 24  # of a known word
 _UNSPACED: Final = re.compile(f"[{UNSPACED}]")
 
 
@@ -19,12 +17,12 @@ def is_unspaced(text: str) -> bool:
     return _UNSPACED.search(text) is not None
 
 
-def known_words(words: Iterable[str]) -> Trie:
+def unspaced_words(words: Iterable[str]) -> frozenset[str]:
     """Return the words of the scripts without spaces."""
-    return Trie(word for word in words if len(word) >= MIN_CHARACTERS and is_unspaced(word))
+    return frozenset(word for word in words if len(word) >= MIN_CHARACTERS and is_unspaced(word))
 
 
-def split_unspaced(words: Sequence[Word], known: Sequence[Trie]) -> Iterator[Word]:
+def split_unspaced(words: Sequence[Word], known: Sequence[Container[str]]) -> Iterator[Word]:
     """Yield words; those without spaces between them are split at known words, preferring long ones."""
     for word in words:
         if not is_unspaced(word.plain) or len(word.plain) != word.end - word.start:
@@ -32,13 +30,12 @@ def split_unspaced(words: Sequence[Word], known: Sequence[Trie]) -> Iterator[Wor
             continue
         start = n = 0
         while n < len(word.plain):
-            rest = word.plain[n:]
-            longest = max((found for trie in known for found in trie.prefixes(rest)), key=len, default="")
-            if longest:
+            ends = range(min(n + MAX_CHARACTERS, len(word.plain)), n + MIN_CHARACTERS - 1, -1)
+            end = next((end for end in ends if any(word.plain[n:end] in group for group in known)), None)
+            if end is not None:
                 yield from _part(word, start, n)
-                yield from _part(word, n, n + len(longest))
-                start = n + len(longest)
-            n += max(len(longest), 1)
+                yield from _part(word, n, end)
+            start, n = (start, n + 1) if end is None else (end, end)
         yield from _part(word, start, len(word.plain))
 
 

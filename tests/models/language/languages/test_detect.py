@@ -16,6 +16,11 @@ from models.language.languages.detect import detect_languages
         ("stand to the left of the bank, jag står framför kyrkan och väntar på dig", ("en", "sv")),
         ("Sto davanti alla farmacia, il bar è alla mia destra", ("it",)),
         ("Estoy en la esquina, la farmacia está a mi derecha", ("es",)),
+        ("Rosenstraße Ecke Münzstraße", ("de",)),
+        ("davanti all'edicola", ("it",)),
+        ("右手邊有一間銀行", ("zh",)),
+        ("右側にコンビニがあります", ("ja",)),
+        ("ночь", ("ru",)),
         ("Я стою рядом с аптекой на Бродвее", ("ru",)),  # noqa: RUF001
     ],
 )

@@ -12,6 +12,7 @@ from models.language.mentions.cues import Relation
 from models.language.mentions.lookup import Lookup
 from models.language.mentions.name_table import NameTable
 from models.language.mentions.names import plain_words, street_forms
+from models.language.mentions.street_spans import WINDS
 from models.strings import Postings
 
 FORMS = [line.split("\t") for line in (Path(__file__).parent / "finnish_streets.tsv").read_text("utf-8").splitlines()]
@@ -27,7 +28,8 @@ def test_each_entry_is_of_a_known_type(code) -> None:
     assert table["discourse"].keys() == {"absent", "denied", "correction", "past", "now", "greeting"}
     assert table["nouns"].keys() <= load_vocabulary().nouns("en").keys()
     assert all(float(n) > 0 for n in (*table["numbers"].values(), *table["metres"].values()))
-    assert table["streets"].keys() <= {"street", "avenue"}
+    assert table["streets"].keys() <= {"street", "avenue"} | WINDS
+    assert table["addresses"].keys() <= {"mark", "on", "before", "counted", "other", "flat", "door"}
 
 
 @pytest.mark.parametrize("code", CODES)
@@ -37,6 +39,10 @@ def test_no_phrase_of_a_side_is_one_of_another(code) -> None:
         for phrase in phrases:
             if phrase.alone is not None and name in EGO_DEG:
                 assert names.setdefault(phrase.alone.pattern, name) == name, phrase.alone.pattern
+
+
+def test_a_noun_of_two_things_means_both() -> None:
+    assert load_table(("es",)).kinds(("banco",)).keys() >= {"amenity/bank", "amenity/bench"}
 
 
 def test_a_mixture_has_the_words_of_both_languages() -> None:

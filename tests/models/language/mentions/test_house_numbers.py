@@ -39,6 +39,38 @@ def test_a_number_of_something_else(text) -> None:
 
 
 @pytest.mark.parametrize(
+    "text",
+    [
+        "je suis au 12 de la Bulevardi", "devant le 12, Bulevardi", "Bulevardi au 12", "à hauteur du 12 Bulevardi",
+        "vor Hausnummer 12 in der Bulevardi", "Bulevardi auf Höhe Nummer 12", "en el 12 de la Bulevardi",
+        "davanti al civico 12 di Bulevardi", "Bulevardi n.º 12", "em frente ao número 12 da Bulevardi",
+        "pod numerem 12 na Bulevardi", "numeron 12 kohdalla, Bulevardi", "Bulevardi numara 12", "Bulevardi No:12",
+        "возле дома 12 по Bulevardi", "nummer 12 på Bulevardi", "huisnummer 12 in de Bulevardi",
+    ],
+)  # fmt: skip
+def test_the_number_of_a_street_in_other_languages(text) -> None:
+    start = text.index(STREET)
+    written = number_beside(text, start, start + len(STREET))
+    assert written is not None
+    assert written.number == "12"
+
+
+@pytest.mark.parametrize(
+    "text", ["ligne 12 Bulevardi", "12 metriä Bulevardi", "Bulevardi 12 personas", "Linie 12 Bulevardi"]
+)
+def test_a_number_of_something_else_in_other_languages(text) -> None:
+    start = text.index(STREET)
+    assert number_beside(text, start, start + len(STREET)) is None
+
+
+def test_a_number_without_a_space() -> None:
+    text = "我在福順路1177號前面"
+    written = number_beside(text, 2, 5)
+    assert written is not None
+    assert written.number == "1177號"
+
+
+@pytest.mark.parametrize(
     ("written", "known", "numbers", "is_whole"),
     [
         ("46", ["46-48"], ("46-48",), True),

@@ -2,7 +2,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from models.language.mentions.names import full_words, plain_word, plain_words, split_words, street_forms
+from models.language.mentions.names import (
+    full_words,
+    latin_spellings,
+    plain_word,
+    plain_words,
+    split_words,
+    street_forms,
+)
 
 
 @pytest.mark.parametrize(
@@ -133,3 +140,21 @@ def test_all_spellings_of_a_name_have_the_same_forms() -> None:
 def test_a_german_street_goes_without_its_kind() -> None:
     assert ("karl", "liebknecht") in dict(street_forms("Karl-Liebknecht-Straße"))
     assert ("karl", "liebknecht", "strasse") in dict(street_forms("Karl-Liebknecht-Straße"))
+
+
+@pytest.mark.parametrize(
+    ("name", "spellings"),
+    [
+        ("Потаповский переулок", {"potapovskiy pereulok", "potapovsky pereulok", "potapovsky lane", "potapovsky"}),
+        ("улица Покровка", {"ulitsa pokrovka", "pokrovka street", "pokrovka", "покровка"}),
+        ("Ερμού", {"ermou", "ermoy"}),
+        ("Kuzu Kestane Sokak", {"kuzu kestane"}),
+        ("شارع عباس العقاد", {"عباس العقاد"}),
+    ],
+)
+def test_latin_spellings_and_bare_names_of_streets(name, spellings) -> None:
+    assert {" ".join(form) for form, _ in street_forms(name)} >= spellings
+
+
+def test_a_latin_name_has_no_other_spelling() -> None:
+    assert latin_spellings("Łódź") == latin_spellings("北京") == ()
