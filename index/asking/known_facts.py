@@ -18,6 +18,7 @@ class KnownFacts:
     labels: frozenset[str] = frozenset()  # classes that the text mentions
     winds: frozenset[str] = frozenset()  # the mentioned classes with a compass direction
     colours: frozenset[str] = frozenset()  # the mentioned classes with a colour
+    names: frozenset[str] = frozenset()  # of the streets and places that the text names
     is_on_street: bool = False
     is_at_corner: bool = False  # whether the text names two streets that meet
     is_at_name: bool = False
@@ -43,6 +44,12 @@ class KnownFacts:
             labels=frozenset(labelled),
             winds=frozenset(with_wind),
             colours=frozenset(with_colour),
+            names=frozenset(
+                name
+                for mention in mentions
+                for number in (mention.objects.tolist() if mention.is_exact or mention.form == "street" else ())
+                for name in gazetteer.objects[number].names
+            ),
             is_on_street=any(mention.form in {"street", "address", "corner", "span"} for mention in mentions),
             is_at_corner=any(mention.form in {"corner", "span"} for mention in mentions),
             is_at_name=any(mention.form == "thing" and mention.is_exact for mention in mentions),

@@ -1,6 +1,7 @@
 """Open questions, answered by a name: a street, a place, the nearest cross street or house number."""
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
+from itertools import islice
 from typing import Final
 
 import numpy as np
@@ -50,10 +51,11 @@ class OpenQuestions:
             return landmarks.crossings.rows(cells, self._street_columns(replies)), names
         return self._table(spec.kind).rows(cells), names
 
-    def likeliest_names(self, spec: QuestionSpec, share: Floats) -> list[str]:
-        """Return at most MAX_CHOICES names to offer, likeliest first, from the share [K] of each."""
-        best = np.argsort(-share, kind="stable")[:MAX_CHOICES]
-        return [self._name_index(spec.kind).shown[n] for n in best.tolist() if share[n] >= MIN_NAME_SHARE]
+    def likeliest_names(self, spec: QuestionSpec, share: Floats, known: Container[str] = ()) -> list[str]:
+        """Return at most MAX_CHOICES names to offer, but no known ones, by the share [K] of each."""
+        shown = self._name_index(spec.kind).shown
+        likely = (shown[n] for n in np.argsort(-share, kind="stable").tolist() if share[n] >= MIN_NAME_SHARE)
+        return list(islice((name for name in likely if name not in known), MAX_CHOICES))
 
     def _name_index(self, kind: str) -> NameIndex | Addresses:
         if kind == "address":

@@ -120,7 +120,8 @@ class Questions:
         best = max(gain, key=lambda spec: gain[spec] - EFFORT_BITS.get(spec.kind, 0.0), default=None)
         if best is None or gain[best] < MIN_GAIN_BITS:
             return None
-        return best.question(self._names.likeliest_names(best, mass @ rows[best][0]) if best.is_open else ())
+        known = known_facts.names
+        return best.question(self._names.likeliest_names(best, mass @ rows[best][0], known) if best.is_open else ())
 
     def _likely_nodes(self, located: PositionDistribution) -> tuple[Ints, Floats]:
         """Return the heaviest node [C] of each cell of the distribution, and the cells' normalized masses."""

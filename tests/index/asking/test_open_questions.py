@@ -49,6 +49,8 @@ def test_the_cross_street_is_of_the_street_that_was_said(questions):
     assert np.exp(crossing["West 25th Street"][at_corner]) == pytest.approx(wrong, abs=0.01)
     rows, _ = questions.rows(QuestionSpec("corner"), np.array([at_corner]), [on_west])
     assert questions.likeliest_names(QuestionSpec("corner"), rows.toarray()[0])[0] == "10th Avenue"
+    known = questions.likeliest_names(QuestionSpec("corner"), rows.toarray()[0], {"10th Avenue"})
+    assert "10th Avenue" not in known
 
 
 def test_what_is_unknown_or_closed_tells_nothing(questions):
