@@ -47,8 +47,8 @@ class ProxiedRequests(ProxyHeadersMiddleware):
 
 def _use_forwarded(scope: Scope, root_path: str) -> str:
     """Set the Host header to X-Forwarded-Host, and return the root path from X-Forwarded-Prefix."""
-    headers = Headers(scope=scope)
-    host, prefix = (headers.get(f"x-forwarded-{name}", "").rpartition(",")[2].strip() for name in ("host", "prefix"))
+    values = (",".join(Headers(scope=scope).getlist(f"x-forwarded-{name}")) for name in ("host", "prefix"))
+    host, prefix = (value.rpartition(",")[2].strip() for value in values)  # that of the nearest proxy
     if host:
         others = [(name, value) for name, value in scope["headers"] if name != b"host"]
         scope["headers"] = [(b"host", host.encode("latin-1")), *others]

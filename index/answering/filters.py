@@ -18,8 +18,8 @@ from models.posterior.neighbours.neighbour_index import NeighbourIndex
 
 EDGE_BEND_M: Final = 0.5  # curvature of a box edge in degrees between two points, at most
 CELL_REACH_M: Final = BEST_CELL_REACH_M + EDGE_BEND_M  # from a cell's centre to its nodes, at most
-MAX_EDGE_DEG: Final = 0.01  # of a polygon in degrees before it is projected: bends by 0.2 m at 80 degrees of latitude
-BUFFER_MARGIN: Final = 1.05  # shapely's buffers have 0.5 % less than their distance at round corners
+MAX_EDGE_DEG: Final = 0.01  # of a polygon in degrees before it is projected: bends by some centimetres
+BUFFER_MARGIN: Final = 1.01  # at round corners, buffers of shapely have 0.1 % less than their distance
 POINTS_PER_EDGE: Final = 65  # of a box in degrees; edges are straight between them
 MARGIN_DEG: Final = 1e-3  # around the map, to which boxes in degrees are cut
 Mask = npt.NDArray[np.bool_]

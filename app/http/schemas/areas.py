@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from itertools import chain
 from typing import Annotated, Any, Final, Literal, Self
 
-import shapely
 from pydantic import (
     AfterValidator,
     BeforeValidator,
@@ -45,6 +44,8 @@ def check_bbox(bbox: tuple[float, float, float, float]) -> tuple[float, float, f
 
 def check_polygons(coordinates: Sequence[Any], is_multiple: bool) -> tuple[PolygonRings, ...]:
     """Return the polygons of GeoJSON coordinates: each an outer ring, then its holes. Refuse invalid ones."""
+    import shapely  # noqa: PLC0415  # heavy, and few requests have polygons
+
     try:
         polygons = POLYGONS.validate_python(coordinates if is_multiple else [coordinates])
     except ValidationError as error:

@@ -230,7 +230,7 @@ def test_fields_of_the_service_narrow_the_search(opened, text):
         ("[]", "JSON object"),
         ('{"top_k": 3}', "within"),
         ('{"prior": {"position": [0, 0]}}', "prior.sigma_m"),
-        ('{"within": {"bbox": [60.1, 24.9, 60.2, 25.0]}, "crs": "wgs84"}', "within.bbox"),
+        ('{"within": {"bbox": [60.165, 24.93, 60.175, 24.95]}, "crs": "wgs84"}', "within.bbox"),
     ],
 )
 def test_fields_that_cannot_be_used_are_named(opened, fields, phrase):

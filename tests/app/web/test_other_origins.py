@@ -57,10 +57,10 @@ def origin():
     """The address of a site with the npm packages."""
     if not (PACKAGES / "leaflet-control-geocoder").is_dir():
         pytest.skip("no npm packages here: npm ci in app/web/source")
-    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(QuietHandler, directory=PACKAGES))
-    Thread(target=server.serve_forever, daemon=True).start()
-    yield f"http://127.0.0.1:{server.server_port}"
-    server.shutdown()
+    with ThreadingHTTPServer(("127.0.0.1", 0), partial(QuietHandler, directory=PACKAGES)) as server:
+        Thread(target=server.serve_forever, daemon=True).start()
+        yield f"http://127.0.0.1:{server.server_port}"
+        server.shutdown()
 
 
 @pytest.fixture
@@ -69,6 +69,7 @@ def open_page(browser, origin, in_a_thread):
     errors = []
     with in_a_thread(create_app(Settings(cors_origins=(origin,)), FakeLocalizer)) as port:
         page = browser.new_page()
+        page.set_default_timeout(10_000)
         page.on("pageerror", lambda error: errors.append(str(error)))
 
         def open_page(html):
@@ -87,6 +88,7 @@ def test_leaflet_control_geocoder_finds_a_place(open_page):
     with page.expect_response("**/search?**") as response:
         page.keyboard.press("Enter")
     assert response.value.ok
+    page.click(".leaflet-control-geocoder-alternatives li >> nth=0")
     page.wait_for_selector(".leaflet-popup-content")
     centre = page.evaluate("[map.getCenter().lat, map.getCenter().lng]")
     assert centre == pytest.approx([60.17, 24.94], abs=0.01)
@@ -98,5 +100,6 @@ def test_maplibre_gl_geocoder_finds_a_place(open_page):
     with page.expect_response("**/localize") as response:
         page.keyboard.press("Enter")
     assert response.value.ok
+    page.click(".suggestions li >> nth=0")
     page.wait_for_function("document.title !== ''")
     assert [float(part) for part in page.title().split(",")] == pytest.approx([24.94, 60.17], abs=0.01)

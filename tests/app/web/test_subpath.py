@@ -15,11 +15,7 @@ from tests.app.web.test_asking import (  # noqa: F401
     test_a_question_narrows_and_its_answer_can_be_taken_back,
     test_who_asks_sees_the_answer_in_words_and_on_the_map,
 )
-from tests.app.web.test_page import (  # noqa: F401
-    SURE,
-    test_an_evaluation_is_followed_and_its_errors_are_on_the_map,
-    test_the_address_says_all_and_is_enough_to_see_the_same,
-)
+from tests.app.web.test_page import SURE, test_an_evaluation_is_followed_and_its_errors_are_on_the_map  # noqa: F401
 
 pytestmark = pytest.mark.slow
 NGINX = shutil.which("nginx") or shutil.which("nginx", path="/usr/sbin")
@@ -76,5 +72,5 @@ def test_the_path_without_its_slash_leads_to_the_page_and_its_docs_to_the_api(vi
     page = visitor.page
     assert page.evaluate("location.href") == sites[0]
     page.goto(f"{sites[0]}docs")
-    page.wait_for_selector("text=/localize/batch")
+    page.wait_for_selector("[data-path='/localize/batch']")
     assert page.inner_text("select") == "/town"
