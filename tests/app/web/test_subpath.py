@@ -12,7 +12,6 @@ from tests.app.conftest import is_ready, wait_until
 from tests.app.web.conftest import served
 from tests.app.web.test_asking import (  # noqa: F401
     test_a_place_that_is_pinned_is_described_and_found_again,
-    test_a_question_narrows_and_its_answer_can_be_taken_back,
     test_who_asks_sees_the_answer_in_words_and_on_the_map,
 )
 from tests.app.web.test_page import SURE, test_an_evaluation_is_followed_and_its_errors_are_on_the_map  # noqa: F401
@@ -68,9 +67,9 @@ def test_a_proxy_may_remove_the_path(visit, sites):
 
 
 def test_the_path_without_its_slash_leads_to_the_page_and_its_docs_to_the_api(visit, sites):
-    visitor = visit(sites[0].removesuffix("/")).open()
-    page = visitor.page
-    assert page.evaluate("location.href") == sites[0]
+    page = visit(sites[0]).page
+    page.goto(sites[0].removesuffix("/"))
+    assert page.url == sites[0]
     page.goto(f"{sites[0]}docs")
     page.wait_for_selector("[data-path='/localize/batch']")
     assert page.inner_text("select") == "/town"
