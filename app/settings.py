@@ -1,12 +1,12 @@
 """Settings from the environment (HEREABOUTS_PORT=9000) or the command line."""
 
 import re
-from ipaddress import IPv4Address, IPv6Address, ip_address
+from ipaddress import IPv4Address, IPv6Address, ip_address, ip_network
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import Field, PositiveInt, SecretStr, ValidationError, field_validator
-from pydantic_settings import BaseSettings, SettingsConfigDict
+from pydantic import BeforeValidator, Field, PositiveInt, SecretStr, ValidationError, field_validator
+from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 from models.errors import HereaboutsError
 
@@ -14,6 +14,16 @@ if TYPE_CHECKING:
     from index.answering.localizer import Localizer
 
 _KEY = re.compile(r"[!-~]{8,}")  # characters that every client and proxy can send in a header
+_ORIGIN = re.compile(r"\*|https?://[^\s/?#,]+")
+ROOT_PATH = re.compile(r"(/[A-Za-z0-9_][A-Za-z0-9._~-]*)*")  # without a host, which "//" would begin
+
+
+def _split(value: Any) -> Any:
+    """Return the items of a list with commas."""
+    return [item.strip() for item in value.split(",") if item.strip()] if isinstance(value, str) else value
+
+
+Items = Annotated[tuple[str, ...], NoDecode, BeforeValidator(_split)]
 
 
 class Settings(BaseSettings):
@@ -31,6 +41,13 @@ class Settings(BaseSettings):
     port: int = Field(8000, ge=0, le=65535)
     read_key: SecretStr | None = Field(
         None, description="the key that requests need; None: no key, and only direct local requests may evaluate"
+    )
+    root_path: str = Field("", description="path at which a reverse proxy serves the service, for example /hereabouts")
+    proxies: Items = Field(
+        (), description="addresses or networks of the reverse proxies whose X-Forwarded headers are used"
+    )
+    cors_origins: Items = Field(
+        (), description="origins whose web pages may use the service, for example https://town.example; *: all"
     )
     workers: PositiveInt | None = Field(None, description="worker processes; None: one per CPU")
     max_wait_ms: PositiveInt = Field(
@@ -59,6 +76,31 @@ class Settings(BaseSettings):
                 "`openssl rand -hex 16`; without this setting the service is open"
             )
         return key
+
+    @field_validator("root_path")
+    @classmethod
+    def _is_path(cls, path: str) -> str:
+        path = path.rstrip("/")
+        if not ROOT_PATH.fullmatch(path):
+            raise ValueError("must be a path such as /hereabouts, of letters, digits and ._~-")
+        return path
+
+    @field_validator("proxies")
+    @classmethod
+    def _are_networks(cls, proxies: tuple[str, ...]) -> tuple[str, ...]:
+        for proxy in proxies:
+            try:
+                ip_network(proxy)
+            except ValueError:
+                raise ValueError("must be addresses or networks such as 127.0.0.1,10.0.0.0/8") from None
+        return proxies
+
+    @field_validator("cors_origins")
+    @classmethod
+    def _are_origins(cls, origins: tuple[str, ...]) -> tuple[str, ...]:
+        if not all(map(_ORIGIN.fullmatch, origins)):
+            raise ValueError("must be origins such as https://town.example or http://localhost:3000, without a path")
+        return origins
 
 
 def load_settings(**overrides: object) -> Settings:

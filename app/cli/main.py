@@ -4,8 +4,7 @@
 import json
 import signal
 import sys
-from dataclasses import asdict
-from functools import partial
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -24,11 +23,13 @@ from app.cli.aliases import aliases
 from app.cli.options import (
     DATA_HELP,
     EXTRA_FORMATS,
+    FIELDS_HELP,
     INDEX_DIR,
     WITHIN_HELP,
     IndexDir,
     Split,
     check_shard_options,
+    parse_fields,
     parse_shard,
     read_extras,
     run_index_job,
@@ -214,18 +215,29 @@ def localize(
     index_dir: IndexDir = INDEX_DIR,
     top_k: Annotated[int, typer.Option(min=1, max=40, help="number of candidates")] = DEFAULT_TOP_K,
     refine: Annotated[Refine, typer.Option(help="how the position is found")] = DEFAULT_REFINE,
+    fields: Annotated[str, typer.Option(help=FIELDS_HELP)] = "{}",
     as_json: Annotated[bool, typer.Option("--json", help="print JSON")] = False,
     picture: Annotated[Path | None, typer.Option(help="PNG file to draw the answer to")] = None,
 ) -> None:
     """Find the position of the speaker of a description."""
+    from app.http.errors import Problem
+    from app.http.routes.localize import check_positions
     from app.settings import open_index
-    from index.answering.query import Query
     from models.language.sentences import split_hints
 
+    request = parse_fields(fields, top_k, refine)
     if text != STDIN:
         split_hints(text)  # raises DescriptionError before anything is loaded
     localizer = open_index(index_dir)
-    make_query = partial(Query, top_k=top_k, refine=refine)
+    try:
+        check_positions(request, localizer)
+    except Problem as problem:
+        raise typer.BadParameter(f"--fields: {problem.detail}") from None
+    query = request.to_query()
+
+    def make_query(description: str) -> "Query":
+        return replace(query, description=description)
+
     if text == STDIN:
         raise typer.Exit(_answer_lines(localizer, make_query))
     [answer] = localizer.localize([make_query(text)])

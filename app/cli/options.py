@@ -1,14 +1,18 @@
 """Options that several commands share, and those of `index` that split the work into shards."""
 
+import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from pydantic import ValidationError
 
+from index.answering.query import Refine
 from index.build.shard import Shard
 
 if TYPE_CHECKING:
+    from app.http.schemas.requests import LocalizeRequest
     from index.build.build import IndexJob
     from models.citymap.types import Progress
     from models.sources.extras.layer import ExtraLayer
@@ -26,6 +30,11 @@ WITHIN_HELP = (
     "region of an OpenStreetMap file: west,south,east,north in degrees, a GeoJSON file, or a place in the file, "
     'such as place:"Andorra la Vella"'
 )
+FIELDS_HELP = (
+    "JSON with within, prior, listener, crs or answers as in POST /localize, for example "
+    '\'{"prior": {"position": [24.94, 60.17], "radius_m": 80}, "crs": "wgs84"}\''
+)
+LOCAL_FIELDS = frozenset({"within", "prior", "listener", "crs", "answers"})
 EXTRA_FORMATS = "a .csv file with columns lat and lon, GeoJSON, or Overpass JSON"
 
 
@@ -54,6 +63,23 @@ def check_shard_options(
         raise typer.BadParameter(
             "--address is the address of a Ray cluster: give --engine ray with it, or leave it out"
         )
+
+
+def parse_fields(text: str, top_k: int, refine: Refine) -> "LocalizeRequest":
+    """Return a request with these options and fields in JSON."""
+    from app.http.errors import Problem  # noqa: PLC0415  # heavy
+    from app.http.schemas.requests import LocalizeRequest  # noqa: PLC0415  # heavy
+
+    try:
+        fields = json.loads(text)
+    except ValueError as error:
+        raise typer.BadParameter(f"--fields: is not JSON: {error}") from None
+    if not isinstance(fields, dict) or not fields.keys() <= LOCAL_FIELDS:
+        raise typer.BadParameter(f"--fields: must be a JSON object with any of {', '.join(sorted(LOCAL_FIELDS))}")
+    try:
+        return LocalizeRequest.model_validate({"description": "any", "top_k": top_k, "refine": refine, **fields})
+    except ValidationError as error:
+        raise typer.BadParameter(f"--fields: {Problem.for_body(error).detail}") from None
 
 
 def read_extras(files: Sequence[Path], kinds: Sequence[str]) -> tuple["ExtraLayer", ...]:

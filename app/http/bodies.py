@@ -3,6 +3,7 @@
 import asyncio
 import json
 import re
+from codecs import BOM_UTF8
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any, Final
@@ -11,6 +12,7 @@ from starlette.datastructures import Headers as RequestHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.http.errors import Code, Problem
+from app.http.proxies import route_path
 
 MAX_JSON_DEPTH: Final = 32
 MAX_JSON_VALUES: Final = 400_000  # of one body; commas inside strings count too
@@ -49,7 +51,7 @@ class StrictBody:
         if scope["type"] != "http" or scope["method"] not in {"POST", "PUT", "PATCH"}:
             await self.app(scope, receive, send)
             return
-        max_bytes = self.larger.get(scope["path"], self.max_bytes)
+        max_bytes = self.larger.get(route_path(scope), self.max_bytes)
         with self._large.reservation() as reserve:
             await self.app(scope, self._checked(scope, receive, max_bytes, reserve), send)
 
@@ -72,6 +74,7 @@ class StrictBody:
                 raise problem from None
             if body is None:
                 return {"type": "http.disconnect"}
+            body = body.removeprefix(BOM_UTF8)
             if len(body) < LARGE_BODY_BYTES:
                 check_json(body)
             else:

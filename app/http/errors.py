@@ -10,7 +10,7 @@ import structlog
 from asgi_correlation_id import correlation_id
 from fastapi import FastAPI, HTTPException, Request
 from fastapi.exceptions import RequestValidationError
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from starlette.exceptions import HTTPException as StarletteHTTPException
 from starlette.responses import JSONResponse, Response
 from starlette.routing import Match, Route
@@ -164,6 +164,11 @@ class Problem(HTTPException):
         self.errors = tuple(errors)
 
     @classmethod
+    def for_body(cls, error: ValidationError) -> "Problem":
+        """Return the 422 about a body that was validated outside FastAPI."""
+        return _validation_problem(RequestValidationError([{**e, "loc": ("body", *e["loc"])} for e in error.errors()]))
+
+    @classmethod
     def for_field(cls, field: str, message: str) -> "Problem":
         """Return a 422 about one field."""
         return cls(Code.INVALID_REQUEST, f"{field}: {message}", [FieldError(field=field, message=message)])
@@ -229,7 +234,7 @@ def _methods(request: Request) -> set[str]:
     for route in (*request.app.routes, *request.app.state.routes):
         if isinstance(route, Route) and route.matches(request.scope)[0] is not Match.NONE:
             methods |= route.methods or set()
-    return methods
+    return methods | ({"HEAD"} if "GET" in methods else set())
 
 
 def _validation_problem(error: RequestValidationError) -> Problem:

@@ -11,6 +11,7 @@ from pydantic import SecretStr
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from app.http.errors import Code, Problem
+from app.http.proxies import route_path
 from app.settings import is_local
 
 OPEN: Final[dict[str, Any]] = {"security": []}  # `openapi_extra=` of a route that needs no key, as OpenAPI defines it
@@ -38,7 +39,7 @@ class KeyCheck:
     """Middleware that refuses requests without the key before routing, reading the body or queueing.
 
     Without a key, anyone may read, and only direct requests from this machine change state. `open_routes` never need
-    the key; GET includes HEAD. Paths are compared literally, so a path with a parameter is never open.
+    the key; GET includes HEAD. Paths below the root path are compared literally, so one with a parameter is never open.
     """
 
     def __init__(self, app: ASGIApp, read_key: SecretStr | None, open_routes: Collection[tuple[str, str]]) -> None:
@@ -66,28 +67,29 @@ class KeyCheck:
         if scope["type"] != "http":
             return False
         method = "GET" if scope["method"] == "HEAD" else scope["method"]
-        is_asset = method == "GET" and scope["path"].startswith(DOCS_ASSETS)
-        return is_asset or (method, scope["path"]) in self._open_routes
+        path = route_path(scope)
+        return (method == "GET" and path.startswith(DOCS_ASSETS)) or (method, path) in self._open_routes
 
 
 def changes_state(scope: Scope) -> bool:
     """Return whether a request may change stored state or start work that outlives the request."""
-    return scope.get("method") not in SAFE_METHODS and scope["path"] not in READING_POSTS
+    return scope.get("method") not in SAFE_METHODS and route_path(scope) not in READING_POSTS
 
 
 def is_direct(scope: Scope) -> bool:
     """Return whether a request comes from this machine, addressed to this machine, and not through a proxy.
 
     The listening address is not enough: a proxy on this machine connects over loopback too. A web page that reaches the
-    service under its own host name (DNS rebinding) is recognized by the Host header.
+    service under its own host name (DNS rebinding) is recognized by the Host header, one of another origin by Origin.
     """
     client = scope.get("client")
     hosts = [value for name, value in scope["headers"] if name == b"host"]
+    origins = [value.rpartition(b"/")[2] for name, value in scope["headers"] if name == b"origin"]
     return (
         client is not None
         and is_local(client[0])
         and len(hosts) == 1
-        and is_local(_host_name(hosts[0]))
+        and all(is_local(_host_name(host)) for host in (*hosts, *origins))
         and not any(name in FORWARDED_HEADERS or name.startswith(FORWARDED_PREFIX) for name, _ in scope["headers"])
     )
 

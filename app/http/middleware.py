@@ -1,4 +1,4 @@
-"""Middleware around all routes: the access log, the answer to internal errors, and security headers."""
+"""Middleware around all routes: the access log, the answer to internal errors, security headers and HEAD."""
 
 import re
 import time
@@ -44,7 +44,7 @@ class AccessLog:
         if scope["type"] != "http":
             await self.app(scope, receive, send)
             return
-        status, descriptions = 0, descriptions_of(scope)
+        method, status, descriptions = scope["method"], 0, descriptions_of(scope)
         started_s = time.monotonic()
 
         async def note_status(message: Message) -> None:
@@ -62,10 +62,10 @@ class AccessLog:
             await Problem(Code.INTERNAL_ERROR).response()(scope, receive, note_status)
         finally:
             route, seconds = getattr(scope.get("route"), "path", OTHER), time.monotonic() - started_s
-            self._metrics.record(scope["method"], route, status, seconds)
+            self._metrics.record(method, route, status, seconds)
             log.info(
                 "request",
-                method=known_method(scope["method"]),
+                method=known_method(method),
                 route=route,
                 status=status,
                 ms=round(seconds * 1000, 1),
@@ -93,3 +93,28 @@ class SafeHeaders:
             await send(message)
 
         await self.app(scope, receive, send_marked)
+
+
+class HeadAsGet:
+    """Middleware that answers HEAD with the headers of GET."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self.app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Serve one request."""
+        if scope["type"] != "http" or scope["method"] != "HEAD":
+            await self.app(scope, receive, send)
+            return
+        is_sent = False
+
+        async def send_head(message: Message) -> None:
+            nonlocal is_sent
+            if message["type"] == "http.response.start":
+                await send(message)
+            elif not is_sent:  # an event stream would send more
+                is_sent = True
+                await send({"type": "http.response.body"})
+
+        scope["method"] = "GET"
+        await self.app(scope, receive, send_head)

@@ -1,12 +1,14 @@
 """The filter and the prior of a query."""
 
 from collections.abc import Callable
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
 import numpy.typing as npt
+import shapely
 
-from index.answering.query import Box, Circle, Query
+from index.answering.query import Box, Circle, Polygons, Query
 from models.citymap.frame import Frame
 from models.citymap.hints import BEST_CELL_REACH_M
 from models.citymap.points import ranges
@@ -16,6 +18,8 @@ from models.posterior.neighbours.neighbour_index import NeighbourIndex
 
 EDGE_BEND_M: Final = 0.5  # curvature of a box edge in degrees between two points, at most
 CELL_REACH_M: Final = BEST_CELL_REACH_M + EDGE_BEND_M  # from a cell's centre to its nodes, at most
+MAX_EDGE_DEG: Final = 0.01  # of a polygon in degrees before it is projected: bends by some centimetres
+BUFFER_MARGIN: Final = 1.01  # at round corners, buffers of shapely have 0.1 % less than their distance
 POINTS_PER_EDGE: Final = 65  # of a box in degrees; edges are straight between them
 MARGIN_DEG: Final = 1e-3  # around the map, to which boxes in degrees are cut
 Mask = npt.NDArray[np.bool_]
@@ -28,10 +32,12 @@ def is_inside(query: Query, points_m: Floats, frame: Frame) -> Mask:
     if isinstance(within, Circle):
         offset = points_m - frame.position_m(within.center, query.crs)
         return np.asarray(np.hypot(offset[:, 0], offset[:, 1]) <= within.radius_m)
+    x, y = points_m.T
+    if query.crs == "wgs84":
+        y, x = frame.to_wgs84(points_m)
+    if isinstance(within, Polygons):
+        return np.asarray(shapely.intersects_xy(_shape(within), x, y))
     if isinstance(within, Box):
-        x, y = points_m.T
-        if query.crs == "wgs84":
-            y, x = frame.to_wgs84(points_m)
         return np.asarray((x >= within.west) & (x <= within.east) & (y >= within.south) & (y <= within.north))
     return np.ones(len(points_m), dtype=bool)
 
@@ -40,7 +46,10 @@ def nodes_inside(query: Query, surroundings: NeighbourIndex, centers_m: Floats, 
     """Return the exact nodes inside `within`, of cells with centres [N, 2]; None without a filter."""
     if query.within is None:
         return None
-    bounds = _circle_bounds(query, frame) if isinstance(query.within, Circle) else _box_bounds(query, centers_m, frame)
+    if isinstance(query.within, Circle):
+        bounds = _circle_bounds(query, frame)
+    else:
+        bounds = (_box_bounds if isinstance(query.within, Box) else _polygon_bounds)(query, centers_m, frame)
 
     def contains(points_m: Floats) -> Mask:
         near, sure = bounds(points_m, EDGE_BEND_M)
@@ -80,12 +89,10 @@ def _box_bounds(query: Query, centers_m: Floats, frame: Frame) -> BoundsTest:
     assert isinstance(box, Box)
     outer = inner = np.array([[box.west, box.south], [box.east, box.north]])
     if query.crs == "wgs84":
-        low = np.array([axis.min() for axis in centers_m.T]) - CELL_REACH_M
-        high = np.array([axis.max() for axis in centers_m.T]) + CELL_REACH_M
-        lat, lon = frame.to_wgs84(_box_edges(low, high).reshape(-1, 2))
         # Cut large boxes to the surroundings of the map: positions far away may have no coordinates in its frame.
-        west, south = max(box.west, lon.min() - MARGIN_DEG), max(box.south, lat.min() - MARGIN_DEG)
-        east, north = min(box.east, lon.max() + MARGIN_DEG), min(box.north, lat.max() + MARGIN_DEG)
+        around = _surroundings_deg(centers_m, frame)
+        west, south = max(box.west, around[0]), max(box.south, around[1])
+        east, north = min(box.east, around[2]), min(box.north, around[3])
         if west > east or south > north:
             return lambda points_m, _: (np.zeros(len(points_m), np.bool_), np.zeros(len(points_m), np.bool_))
         corners = _box_edges(np.array([west, south]), np.array([east, north]))
@@ -100,6 +107,45 @@ def _box_bounds(query: Query, centers_m: Floats, frame: Frame) -> BoundsTest:
         return near, sure
 
     return bounds
+
+
+def _polygon_bounds(query: Query, centers_m: Floats, frame: Frame) -> BoundsTest:
+    """Return the same test for polygons."""
+    assert isinstance(query.within, Polygons)
+    shape = _shape(query.within)
+    if query.crs == "wgs84":  # cut to the surroundings of the map, as a box
+        shape = shapely.segmentize(shape.intersection(shapely.box(*_surroundings_deg(centers_m, frame))), MAX_EDGE_DEG)
+        shape = shapely.transform(shape, lambda lon_lat: frame.from_wgs84(lon_lat[:, 1], lon_lat[:, 0]))
+    # Cutting leaves a line where a polygon only touches the box.
+    shape = shapely.MultiPolygon([part for part in shapely.get_parts(shape) if part.geom_type == "Polygon"])
+
+    def bounds(points_m: Floats, reach_m: float) -> tuple[Mask, Mask]:
+        outer, inner = (shape.buffer(sign * BUFFER_MARGIN * reach_m) for sign in (1, -1))
+        low, high = np.split(np.array(outer.bounds), 2)  # NaN without a part on the map
+        near, sure = _is_in_box(points_m, low, high), np.zeros(len(points_m), np.bool_)
+        shapely.prepare((outer, inner))
+        for mask, area in ((near, outer), (sure, inner)):
+            rows = np.flatnonzero(near)
+            mask[rows] = shapely.intersects_xy(area, *points_m[rows].T)
+        return near, sure
+
+    return bounds
+
+
+@lru_cache(maxsize=16)
+def _shape(within: Polygons) -> shapely.Geometry:
+    """Return the union of polygons, which takes up to 0.2 s."""
+    shape = shapely.union_all([shapely.Polygon(outer, holes) for outer, *holes in within.polygons])
+    shapely.prepare(shape)
+    return shape
+
+
+def _surroundings_deg(centers_m: Floats, frame: Frame) -> tuple[float, float, float, float]:
+    """Return west, south, east and north of a box around the map's cells with some margin."""
+    low = np.array([axis.min() for axis in centers_m.T]) - CELL_REACH_M
+    high = np.array([axis.max() for axis in centers_m.T]) + CELL_REACH_M
+    lat, lon = frame.to_wgs84(_box_edges(low, high).reshape(-1, 2))
+    return lon.min() - MARGIN_DEG, lat.min() - MARGIN_DEG, lon.max() + MARGIN_DEG, lat.max() + MARGIN_DEG
 
 
 def _is_in_box(points_m: Floats, low: Floats, high: Floats) -> Mask:
@@ -119,7 +165,10 @@ def _box_edges(low: Floats, high: Floats) -> Floats:
 
 def log_prior(query: Query, points_m: Floats, frame: Frame) -> Floats:
     """Return the prior's log density at points [M, 2], up to a constant; 0 without a prior."""
-    if query.prior is None:
+    prior = query.prior
+    if prior is None:
         return np.zeros(len(points_m))
-    offset = points_m - frame.position_m(query.prior.position, query.crs)
-    return -(offset**2).sum(axis=1) / (2 * query.prior.sigma_m**2)
+    east, north = (points_m - frame.position_m(prior.position, query.crs)).T
+    angle = np.radians(prior.orientation_deg)
+    along, across = east * np.sin(angle) + north * np.cos(angle), east * np.cos(angle) - north * np.sin(angle)
+    return -((along / prior.sigma_m) ** 2 + (across / (prior.minor_sigma_m or prior.sigma_m)) ** 2) / 2

@@ -30,11 +30,22 @@ class Circle:
 
 
 @dataclass(frozen=True, slots=True)
+class Polygons:
+    """A filter: positions outside are excluded. Vertices: (x, y) map metres, or (lon, lat) degrees."""
+
+    polygons: tuple[
+        tuple[tuple[tuple[float, float], ...], ...], ...
+    ]  # each has an outer ring, then its holes; may overlap
+
+
+@dataclass(frozen=True, slots=True)
 class Prior:
-    """A bias, for example a poor GPS fix. `position`: (x, y) map metres, or (lon, lat) degrees."""
+    """A bias, for example a poor GPS fix: a Gaussian. `position`: (x, y) map metres, or (lon, lat) degrees."""
 
     position: tuple[float, float]
-    sigma_m: float
+    sigma_m: float  # along the major axis
+    minor_sigma_m: float | None = None  # None: as along the major axis
+    orientation_deg: float = 0.0  # of the major axis, clockwise from the map's north
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +62,7 @@ class Query:
 
     description: str  # with at least one word
     top_k: int = DEFAULT_TOP_K
-    within: Box | Circle | None = None
+    within: Box | Circle | Polygons | None = None
     prior: Prior | None = None
     # Position of who is spoken to: the text then describes where to meet, and "north of you" is from there.
     listener: tuple[float, float] | None = None

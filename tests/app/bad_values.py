@@ -30,6 +30,7 @@ NO_FLAG = [None, 0, 1, "true", MARK, [True]]
 NO_CRS = ["", " ", MARK, "MAP", "utm", "map ", "map\0", None, 5, True, ["map"]]
 NO_REFINE = ["", MARK, "Posterior", "posterior ", None, 5, True, ["none"]]
 NOT_ON_EARTH = [[181, 0], [-180.1, 0], [0, 90.1], [0, -91], [60.17, 124.9], [115, 0], [1e8, 1e8]]
+CROSSED = [[0, 0], [FRACTION, FRACTION], [FRACTION, 0], [0, FRACTION], [0, 0]]
 CIRCLE = {"center": [0, 0], "radius_m": 5}
 TREE = {"question": "near:tree", "choice": "yes"}
 ODD = f"{MARK}!"  # as the name of a field; one of plain letters may be said again
@@ -44,12 +45,18 @@ WITHIN = [
     *({"bbox": box} for box in ([], [0, 0, 1], [0, 0, 1, 1, 1], [1, 0, 0, 1], [0, 1, 1, 0], [0, 0, 1, MARK])),
     *({"bbox": box} for box in ([0, 0, 1, True], [0, 0, 1, None], [0, 0, 1, 1e9], "0,0,1,1", [[0, 0], [1, 1]])),
     *({"circle": circle} for circle in ([], [0, 0, 5], MARK, {"center": [0, 0]}, {"radius_m": 5}, CIRCLE | {ODD: 1})),
+    *({"type": "Polygon", "coordinates": value} for value in (*NO_POINT, [[[FRACTION, MARK]]], [[[FRACTION, 0]] * 4])),
+    *({"type": MARK, "coordinates": []}, {"type": "Polygon", ODD: 1}, {"type": "Polygon", "coordinates": [CROSSED]}),
     *({"circle": CIRCLE | {"center": point}} for point in NO_POINT[::3]),
     *({"circle": CIRCLE | {"radius_m": radius}} for radius in NO_LENGTH[::2]),
 ]
 PRIOR = [
     *([], 5, MARK, {}, {"position": [0, 0]}, {"sigma_m": 5}, {"position": [0, 0], "sigma_m": 5, ODD: 1}),
     *({"position": point, "sigma_m": 5} for point in NO_POINT[1::3]),
+    *({"position": [0, 0], "radius_m": radius, "confidence": 0.9} for radius in NO_LENGTH),
+    *({"position": [0, 0], "radius_m": 5, "confidence": value} for value in (*NO_NUMBER, 0, 1, 68, -1, 1e300)),
+    *({"position": [0, 0], "semi_major_m": 5, "semi_minor_m": value, "orientation_deg": 0} for value in NO_LENGTH),
+    *({"position": [0, 0], "semi_major_m": 5, "semi_minor_m": 2, "orientation_deg": value} for value in NO_NUMBER),
     *({"position": [FRACTION, 0], "sigma_m": sigma} for sigma in NO_LENGTH[1::2]),
 ]
 ANSWERS = [
@@ -74,7 +81,7 @@ FIELDS: Table = {  # in place of what a field of BASES has, or beside it
         "index": NO_NAME[1::3],
     },
     "POST /localize/batch": {
-        "items": [None, [], {}, MARK, 5, [MARK], [5], [None], [[]], [{"description": MARK}] * 65],
+        "items": [None, [], {}, MARK, 5, [{"description": MARK}] * 65],
         "index": ["default"],
         "top_k": [1],
     },
@@ -119,7 +126,6 @@ WHOLE: dict[str, list[Any]] = {  # bodies that are no good as a whole
         b'{"description": "zq7secret", "prior": {"position": [0, 1e999], "sigma_m": 5}}',
         *({f"x{n}".ljust(length, "y"): 1 for n in range(20)} for length in (1, 20, 64, 200)),
     ],
-    "POST /localize/batch": [{"items": [5] * 64}],
     "POST /describe": [
         *({"position": position, "crs": "wgs84"} for position in (*NOT_ON_EARTH, [30, 60])),
         b'{"position": [-1e999, 98.7654321]}',
@@ -139,7 +145,7 @@ UNKNOWN = [ODD, f"{MARK} " * 20, MARK * 20, SCRIPT, "../etc/passwd", "\ud800", f
 RAW = [  # no JSON, or some that is read in two ways
     *(b"", b'{"zq7secret', b"description=zq7secret", b'{"a": "zq7secret"} {}', b'{"a": "zq7secret",}'),
     *(b'{/* zq7secret */ "a": 1}', b"{'a': 'zq7secret'}", b'{"a": "zq7secret\x00"}', b'{"a": 01}', b'{"a": +1}'),
-    *(b'{"zq7secret": "\xff\xfe"}', b'{"a": "\xed\xa0\x80"}', b"\xef\xbb\xbf{}", '{"ä": 1}'.encode("latin-1")),
+    *(b'{"zq7secret": "\xff\xfe"}', b'{"a": "\xed\xa0\x80"}', '{"ä": 1}'.encode("latin-1")),
     *(json.dumps({"a": MARK}).encode(code) for code in ("utf-16", "utf-32")),
     *(b'{"a": NaN}', b'{"a": [-Infinity]}', b'{"a": 1, "a": "zq7secret"}', b'{"a": [{"b": 1, "b": 2}]}'),
     *(b'{"a": ' + DIGITS.encode() * 300 + b"}", b'{"a": ' + b"[" * 40 + b"]" * 40 + b"}", b"[" * 20_000),

@@ -59,6 +59,17 @@ def test_hints_and_options_arrive(url):
         assert result.status == "ok"
 
 
+def test_polygons_and_ellipses_arrive(url):
+    ring = [[24.9, 60.1], [25.0, 60.1], [24.9, 60.2], [24.9, 60.1]]
+    ellipse = {"position": [24.94, 60.17], "semi_major_m": 90.0, "semi_minor_m": 30.0, "orientation_deg": 20.0}
+    options = {"within": {"type": "Polygon", "coordinates": [ring]}, "prior": ellipse, "crs": "wgs84"}
+    for result in both(url, lambda client: client.localize(TEXT, **options)):
+        assert result.status == "ok"
+    options["within"] = {"type": "Polygon", "coordinates": [ring[:3]]}
+    for error in both(url, lambda client: client.localize(TEXT, **options)):
+        assert error.errors[0]["field"] == "within.coordinates"
+
+
 def test_what_is_refused_says_why(url):
     for error in both(url, lambda client: client.localize(TEXT, top_k=0)):
         assert (error.status, error.code) == (422, "invalid_request")

@@ -6,7 +6,9 @@ from collections.abc import Sequence
 
 from fastapi import Request
 from pydantic import BaseModel
+from starlette.middleware.gzip import GZipMiddleware
 from starlette.responses import Response
+from starlette.types import Receive, Scope, Send
 
 from app.http.errors import Code, Problem
 from app.http.middleware import reply_languages_of
@@ -64,20 +66,29 @@ def accepts_gzip(request: Request) -> bool:
     return accepted.get("gzip", accepted.get("*", False))
 
 
+class Gzip(GZipMiddleware):
+    """Starlette's middleware for clients that accept gzip; Starlette ignores qualities such as `gzip;q=0`."""
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Serve one request."""
+        is_accepted = scope["type"] == "http" and accepts_gzip(Request(scope))
+        await (super().__call__ if is_accepted else self.app)(scope, receive, send)
+
+
 def respond(body: BaseModel, media_type: str, headers: dict[str, str] | None = None) -> Response:
     """Return a body in the negotiated media type."""
     return Response(body.model_dump_json(), media_type=media_type, headers={"Vary": "Accept", **(headers or {})})
 
 
 def etag(*parts: str) -> str:
-    """Return a strong ETag of the given parts."""
+    """Return a strong ETag of the given parts; `Gzip` needs "W/" before it."""
     return f'"{hashlib.sha256(repr(parts).encode()).hexdigest()[:32]}"'
 
 
 def is_unchanged(request: Request, tag: str) -> bool:
-    """Return whether the client already has the content with this ETag (If-None-Match)."""
+    """Return whether the client already has the content with this ETag (If-None-Match, which compares weakly)."""
     known = {each.strip().removeprefix("W/") for each in request.headers.get("if-none-match", "").split(",")}
-    return tag in known or "*" in known
+    return tag.removeprefix("W/") in known or "*" in known
 
 
 def _parse_range(text: str) -> tuple[str, float] | None:

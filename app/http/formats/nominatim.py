@@ -64,6 +64,7 @@ def _place(
         "addresstype": PLACE_KIND["type"],
         "name": name,
         "display_name": name,
+        "address": {},  # leaflet-control-geocoder needs it
         "boundingbox": _degrees(box, localizer.frame),
         "extratags": {"description": described.description} if described else {},
     }

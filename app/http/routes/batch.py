@@ -1,10 +1,9 @@
 """Several descriptions in one request; an invalid item fails alone."""
 
 import asyncio
-from typing import Annotated, Any
+from typing import Annotated
 
 from fastapi import APIRouter, Request, Response
-from fastapi.exceptions import RequestValidationError
 from pydantic import BaseModel, ConfigDict, Field, JsonValue, ValidationError
 
 from app.http.bodies import REFUSALS
@@ -15,7 +14,8 @@ from app.http.indexes import Indexes
 from app.http.openapi import problems
 from app.http.queue import UNAVAILABLE
 from app.http.routes.localize import check_positions, localize_for
-from app.http.schemas.requests import EXAMPLE, Body, LocalizeRequest
+from app.http.schemas.fields import Body
+from app.http.schemas.requests import EXAMPLE, LocalizeRequest
 from app.http.schemas.responses import LocalizeResponse
 from app.limits import MAX_BATCH_ITEMS
 from index.build.artifact import DEFAULT_ALIAS
@@ -33,7 +33,7 @@ class BatchRequest(Body):
     model_config = ConfigDict(json_schema_extra={"examples": [BATCH_EXAMPLE]})
 
     items: Annotated[
-        list[dict[str, JsonValue]],
+        list[JsonValue],
         Field(min_length=1, max_length=MAX_BATCH_ITEMS, description="each like the body of POST /localize"),
     ]
 
@@ -57,11 +57,11 @@ router = APIRouter(tags=["localize"])
 @router.post(PATH, responses=problems(*ERRORS))
 async def batch(request: Request, response: Response, body: BatchRequest, indexes: AllIndexes) -> BatchResponse:
     """Localize several descriptions; an item that cannot be answered gets an error instead."""
-    if indexes.is_draining or all(item.get("index", DEFAULT_ALIAS) == DEFAULT_ALIAS for item in body.items):
+    if indexes.is_draining or all(_index_of(item) == DEFAULT_ALIAS for item in body.items):
         indexes.check_accepting()
     slots = asyncio.Semaphore(CONCURRENT_ITEMS)
 
-    async def answer(item: dict[str, Any]) -> BatchItem:
+    async def answer(item: JsonValue) -> BatchItem:
         async with slots:
             return await _answer(request, item, indexes)
 
@@ -71,12 +71,15 @@ async def batch(request: Request, response: Response, body: BatchRequest, indexe
     return BatchResponse(items=[task.result() for task in tasks])
 
 
-async def _answer(request: Request, item: dict[str, Any], indexes: Indexes) -> BatchItem:
+def _index_of(item: JsonValue) -> JsonValue:
+    return item.get("index", DEFAULT_ALIAS) if isinstance(item, dict) else DEFAULT_ALIAS
+
+
+async def _answer(request: Request, item: JsonValue, indexes: Indexes) -> BatchItem:
     try:
         body = LocalizeRequest.model_validate(item)
     except ValidationError as error:
-        invalid = RequestValidationError([{**each, "loc": ("body", *each["loc"])} for each in error.errors()])
-        return BatchItem(error=ProblemBody.model_validate(as_problem(invalid).body()))
+        return BatchItem(error=ProblemBody.model_validate(Problem.for_body(error).body()))
     try:
         async with indexes.lease(body.index) as queue:
             check_positions(body, queue.localizer)

@@ -39,14 +39,15 @@ def cells(
 ) -> Response:
     """Return a page of the map's cells, as JSON, or as GeoJSON if the Accept header requests it."""
     media_type, facts = negotiate(request, localizer.frame), localizer.facts
-    headers = {"ETag": etag(facts.version, f"{offset} {limit}", media_type), "Cache-Control": "no-cache"}
+    headers = {"ETag": "W/" + etag(facts.version, f"{offset} {limit}", media_type), "Cache-Control": "no-cache"}
     if is_unchanged(request, headers["ETag"]):
         return Response(status_code=304, headers={"Vary": "Accept", **headers})
+    root_path = request.scope["root_path"]
     is_last_page = offset + limit >= facts.num_cells
     body = CellsResponse(
         cells=tuple(localizer.cells(offset, limit)),
         total=facts.num_cells,
-        next=None if is_last_page else f"/cells?offset={offset + limit}&limit={limit}&index={index}",
+        next=None if is_last_page else f"{root_path}/cells?offset={offset + limit}&limit={limit}&index={index}",
         crs=CrsOut.from_frame(localizer.frame),
         provenance=Provenance.build(localizer, index=index),
     )
@@ -68,7 +69,7 @@ def cell(cell_id: str, request: Request, localizer: Localizer) -> Response:
     detail = localizer.cell(cell_id)
     if detail is None:
         raise Problem(Code.CELL_NOT_FOUND)
-    headers = {"ETag": etag(localizer.facts.version, cell_id, media_type), "Cache-Control": "no-cache"}
+    headers = {"ETag": "W/" + etag(localizer.facts.version, cell_id, media_type), "Cache-Control": "no-cache"}
     if is_unchanged(request, headers["ETag"]):
         return Response(status_code=304, headers={"Vary": "Accept", **headers})
     body = CellResponse.build(detail, localizer)

@@ -5,7 +5,7 @@ from collections.abc import AsyncIterator
 from pathlib import Path
 from typing import Any
 
-from fastapi import APIRouter, Response
+from fastapi import APIRouter, Request, Response
 from pydantic import BaseModel
 from sse_starlette import EventSourceResponse, ServerSentEvent
 
@@ -49,7 +49,12 @@ router = APIRouter(tags=["evaluate"])
 
 @router.post(PATH, status_code=202, responses=problems(*POST_ERRORS))
 async def evaluate(
-    body: EvaluateRequest, response: Response, indexes: AllIndexes, jobs: Jobs, settings: SettingsNow
+    request: Request,
+    body: EvaluateRequest,
+    response: Response,
+    indexes: AllIndexes,
+    jobs: Jobs,
+    settings: SettingsNow,
 ) -> JobAccepted:
     """Start an evaluation on your own queries or on a data set of the service."""
     queue = indexes.queue(body.index)
@@ -57,7 +62,8 @@ async def evaluate(
     localizer = queue.localizer
     index_dir = version_dir(settings.index_dir, localizer.facts.version)
     job = await jobs.submit(await asyncio.to_thread(build_evaluation, body, settings, index_dir, localizer.frame))
-    links = JobLinks(status=f"{PATH}/{job.id}", events=f"{PATH}/{job.id}/events")
+    path = f"{request.scope['root_path']}{PATH}/{job.id}"
+    links = JobLinks(status=path, events=f"{path}/events")
     response.headers["Location"] = links.status
     return JobAccepted(job=job.id, status="queued", links=links)
 

@@ -89,8 +89,9 @@ def check_positions(body: LocalizeRequest | DescribeRequest, localizer: Localize
             raise Problem.for_field(field, "looks like degrees; send crs wgs84, or metres of the map")
         if body.crs == "wgs84" and is_swapped and not is_right:
             raise Problem.for_field(field, "looks like [latitude, longitude]; send [longitude, latitude]")
-        # A box is compared in degrees; only single points are projected.
-        if body.crs == "wgs84" and field != "within.bbox" and not np.isfinite(frame.from_wgs84(y, x)).all():
+        # Boxes and polygons are compared in degrees; only single points are projected.
+        is_corner = field in {"within.bbox", "within.coordinates"}
+        if body.crs == "wgs84" and not is_corner and not np.isfinite(frame.from_wgs84(y, x)).all():
             raise Problem.for_field(field, "is too far from the map; send [longitude, latitude] near it")
 
 

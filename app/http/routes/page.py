@@ -74,14 +74,13 @@ class PageFile:
 def build_router(page_dir: Path) -> APIRouter:
     """Return one route per file, so that a client's path never reaches the disk; index.html is served at /."""
     router = APIRouter(include_in_schema=False)
-    methods = ["GET", "HEAD"]
     if not (page_dir / INDEX).is_file():
-        router.add_api_route("/", _explain_how_to_build, methods=methods, openapi_extra=OPEN)
+        router.add_api_route("/", _explain_how_to_build, openapi_extra=OPEN)
         return router
     for path in sorted(page_dir.iterdir()):
         if path.is_file() and path.suffix:  # a name without a suffix is hidden or could clash with a route
             route = "/" if path.name == INDEX else f"/{path.name}"
-            router.add_api_route(route, PageFile.load(path).send, methods=methods, openapi_extra=OPEN)
+            router.add_api_route(route, PageFile.load(path).send, openapi_extra=OPEN)
     return router
 
 

@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable
 from typing import Annotated
 
-from pydantic import Field, JsonValue, Strict, StringConstraints
+from pydantic import BaseModel, ConfigDict, Field, JsonValue, Strict, StringConstraints
 from pydantic_core import PydanticCustomError
 
 from index.answering.query import Crs
@@ -23,6 +23,16 @@ IndexName = Annotated[
 ]
 
 
+class Body(BaseModel):
+    """The body of a request or a part of it; unknown fields are refused."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    def given(self) -> set[str]:
+        """Return the names of the fields that are given; null counts as absent."""
+        return {name for name in self.model_fields_set if getattr(self, name) is not None}
+
+
 def field_error(message: str, field: str = "") -> PydanticCustomError:
     """Return a validation error with a message for the client; `field` names another field than the checked one."""
     return PydanticCustomError("hereabouts", "{message}", {"message": message, "field": field})
@@ -35,16 +45,6 @@ def check_text(text: str) -> str:
     if not any(character.isalnum() for character in text):
         raise field_error("contains no words; describe what is around you")
     return text
-
-
-def check_bbox(bbox: tuple[float, float, float, float]) -> tuple[float, float, float, float]:
-    """Refuse a box whose sides are in the wrong order."""
-    west, south, east, north = bbox
-    if west > east:
-        raise field_error("west is greater than east; send [west, south, east, north]")
-    if south > north:
-        raise field_error("south is greater than north; send [west, south, east, north]")
-    return bbox
 
 
 def check_degrees(crs: Crs, points: Iterable[tuple[str, Point]]) -> None:

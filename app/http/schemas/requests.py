@@ -2,14 +2,14 @@
 
 from typing import Annotated, Any, Self
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, JsonValue, Strict, StringConstraints, model_validator
+from pydantic import AfterValidator, ConfigDict, Field, JsonValue, Strict, StringConstraints, model_validator
 
+from app.http.schemas.areas import PriorPosition, Within
 from app.http.schemas.fields import (
-    Coordinate,
+    Body,
     IndexName,
     Length,
     Point,
-    check_bbox,
     check_degrees,
     check_text,
     field_error,
@@ -27,10 +27,7 @@ from index.answering.query import (
     DEFAULT_REFINE,
     DEFAULT_TOP_K,
     MAX_REPLIES,
-    Box,
-    Circle,
     Crs,
-    Prior,
     Query,
     Refine,
     Reply,
@@ -52,50 +49,6 @@ EVALUATE_EXAMPLE: JsonValue = {
 }
 MAX_ID_CHARACTERS = 1000  # far longer than any name or any question with four colours
 MAX_RADII = 8  # of a growing gallery
-
-
-class Body(BaseModel):
-    """The body of a request or a part of it; unknown fields are refused."""
-
-    model_config = ConfigDict(extra="forbid")
-
-
-class WithinCircle(Body):
-    """A circle; `center` is [x, y] in metres, or [lon, lat] with crs wgs84."""
-
-    center: Point
-    radius_m: Length
-
-
-class Within(Body):
-    """A filter on positions: answers lie inside it. Give either `bbox` or `circle`."""
-
-    model_config = ConfigDict(json_schema_extra=one_of("bbox", "array", "circle", "object"))
-
-    bbox: Annotated[tuple[Coordinate, Coordinate, Coordinate, Coordinate], AfterValidator(check_bbox)] | None = Field(
-        None, description="[west, south, east, north] in metres, or in degrees with crs wgs84"
-    )
-    circle: WithinCircle | None = None
-
-    @model_validator(mode="after")
-    def _is_one(self) -> Self:
-        if (self.bbox is None) == (self.circle is None):
-            raise field_error("give either bbox or circle")
-        return self
-
-    def to_filter(self) -> Box | Circle:
-        """Return the filter as the localizer takes it."""
-        if self.circle is not None:
-            return Circle(self.circle.center, self.circle.radius_m)
-        assert self.bbox is not None
-        return Box(*self.bbox)
-
-
-class PriorPosition(Body):
-    """A prior, for example a poor GPS fix; `position` is [x, y] in metres, or [lon, lat] with crs wgs84."""
-
-    position: Point
-    sigma_m: Length
 
 
 class GivenAnswer(Body):
@@ -215,7 +168,7 @@ class LocalizeRequest(DescriptionFields):
             description=self.text(),
             top_k=self.top_k,
             within=self.within.to_filter() if self.within else None,
-            prior=Prior(self.prior.position, self.prior.sigma_m) if self.prior else None,
+            prior=self.prior.to_prior() if self.prior else None,
             listener=self.listener,
             crs=self.crs,
             refine=self.refine,
@@ -225,10 +178,7 @@ class LocalizeRequest(DescriptionFields):
 
     def points(self) -> list[tuple[str, tuple[float, float]]]:
         """Return all (x, y) or (lon, lat) of the request, each with the name of its field."""
-        points = []
-        if self.within and self.within.bbox:
-            west, south, east, north = self.within.bbox
-            points += [("within.bbox", (west, south)), ("within.bbox", (east, north))]
+        points = self.within.corners() if self.within else []
         if self.within and self.within.circle:
             points.append(("within.circle.center", self.within.circle.center))
         if self.prior:

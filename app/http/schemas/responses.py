@@ -205,6 +205,7 @@ class Limits(_Out):
     max_hints: int
     max_items: int = Field(description="items of one POST /localize/batch")
     max_top_k: int
+    max_vertices: int = Field(description="vertices of the polygons of one `within`")
     max_queue: int
     max_wait_ms: int = Field(description="longest expected wait for a worker; a longer one is refused with 429")
     max_queries: int = Field(description="queries of one evaluation")
@@ -222,6 +223,7 @@ class Limits(_Out):
             max_hints=limits.MAX_HINTS,
             max_items=limits.MAX_BATCH_ITEMS,
             max_top_k=limits.MAX_TOP_K,
+            max_vertices=limits.MAX_VERTICES,
             max_queue=limits.MAX_WAITING_QUERIES,
             max_wait_ms=settings.max_wait_ms,
             max_queries=limits.MAX_EVALUATE_QUERIES,

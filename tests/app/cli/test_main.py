@@ -206,6 +206,41 @@ def test_threads_are_set_before_any_command(opened, monkeypatch):
     assert int(records[0]) >= 1
 
 
+RING = [[0, 0], [9, 0], [0, 9], [0, 0]]
+
+
+@pytest.mark.parametrize("text", [TEXT, "-"])
+def test_fields_of_the_service_narrow_the_search(opened, text):
+    fake = FakeLocalizer()
+    opened(fake)
+    prior = {"position": [1, 2], "semi_major_m": 30, "semi_minor_m": 10, "orientation_deg": 45}
+    fields = json.dumps({"within": {"type": "Polygon", "coordinates": [RING]}, "prior": prior})
+    arguments = ["localize", text, "--fields", fields, "--top-k", "1", "--refine", "none"]
+    assert CliRunner().invoke(app, arguments, input=TEXT).exit_code == 0
+    [[query]] = fake.batches
+    assert (query.description, query.top_k, query.refine) == (TEXT, 1, "none")
+    assert query.within.polygons == ((tuple(map(tuple, RING)),),)
+    assert (query.prior.orientation_deg, query.prior.sigma_m / query.prior.minor_sigma_m) == (45, pytest.approx(3))
+
+
+@pytest.mark.parametrize(
+    ("fields", "phrase"),
+    [
+        ("within", "not JSON"),
+        ("[]", "JSON object"),
+        ('{"top_k": 3}', "within"),
+        ('{"prior": {"position": [0, 0]}}', "prior.sigma_m"),
+        ('{"within": {"bbox": [60.165, 24.93, 60.175, 24.95]}, "crs": "wgs84"}', "within.bbox"),
+    ],
+)
+def test_fields_that_cannot_be_used_are_named(opened, fields, phrase):
+    fake = FakeLocalizer()
+    opened(fake)
+    result = run("localize", TEXT, "--fields", fields)
+    assert (result.exit_code, fake.batches) == (2, [])
+    assert phrase in result.stderr
+
+
 def test_lines_of_standard_input_are_answered_a_line_each_and_a_bad_one_fails_alone(opened):
     fake = FakeLocalizer()
     opened(fake)

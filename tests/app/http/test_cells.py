@@ -54,7 +54,7 @@ def test_map_without_georeference_has_no_geojson(settings, start, problem):
 @pytest.mark.parametrize("form", ["{}", "W/{}", '"other", {}', "*"])
 def test_cell_that_the_client_has_is_304(api, form):
     etag = api.get(PATH).headers["etag"]
-    response = api.get(PATH, headers={"If-None-Match": form.format(etag)})
+    response = api.get(PATH, headers={"If-None-Match": form.format(etag.removeprefix("W/"))})
     assert (response.status_code, response.content, response.headers["etag"]) == (304, b"", etag)
 
 

@@ -78,6 +78,7 @@ def test_info_shows_limits_and_index(api):
         "max_hints": 32,
         "max_items": 64,
         "max_top_k": 40,
+        "max_vertices": 2000,
         "max_queue": 256,
         "max_wait_ms": 1500,
         "max_evaluate_bytes": 16_777_216,

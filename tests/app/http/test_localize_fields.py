@@ -5,6 +5,10 @@ from app.http.routes.localize import check_positions
 from app.http.schemas.requests import LocalizeRequest
 from models.citymap.frame import Frame
 
+RING = [[0, 0], [1, 0], [0, 1], [0, 0]]
+FAR_RING = [[0, 0], [181, 0], [0, 1], [0, 0]]
+SWAPPED_RING = [[60.165, 24.93], [60.175, 24.93], [60.17, 24.95], [60.165, 24.93]]
+ELLIPSE = {"semi_major_m": 50, "semi_minor_m": 20, "orientation_deg": 30}
 TREE = {"question": "near:tree", "choice": "yes"}
 
 
@@ -54,6 +58,28 @@ TREE = {"question": "near:tree", "choice": "yes"}
         ({"within": {"bbox": [1, 0, 0, 1]}}, "within.bbox"),
         ({"within": {"bbox": [0, 1, 1, 0]}}, "within.bbox"),
         ({"within": {"bbox": [0, 0, 200, 1]}, "crs": "wgs84"}, "within.bbox"),
+        ({"within": {"type": "Polygon"}}, "within"),
+        ({"within": {"coordinates": [RING]}}, "within"),
+        ({"within": {"type": "Polygon", "coordinates": [RING], "bbox": [0, 0, 1, 1]}}, "within"),
+        ({"within": {"type": "Point", "coordinates": [0, 0]}}, "within.type"),
+        ({"within": {"type": "Feature", "geometry": {}}}, "within.geometry"),
+        *(
+            ({"within": {"type": "Polygon", "coordinates": coordinates}}, "within.coordinates")
+            for coordinates in (
+                *([], [[]], [RING[:3]], [[*RING, [5, 5]]], [RING, []], [[*RING, *RING] * 500]),
+                [[[0, 0], [1, 1], [1, 0], [0, 1], [0, 0]]],
+                [[[0, 0], [1, 1], [2, 2], [0, 0]]],
+                [RING, [[8, 8], [9, 8], [9, 9], [8, 8]]],
+            )
+        ),
+        ({"within": {"type": "MultiPolygon", "coordinates": [[RING], []]}}, "within.coordinates"),
+        ({"within": {"type": "Polygon", "coordinates": RING}}, "within.coordinates[0][0]"),
+        ({"within": {"type": "MultiPolygon", "coordinates": [RING]}}, "within.coordinates[0][0][0]"),
+        ({"within": {"type": "Polygon", "coordinates": [[[0, True], *RING]]}}, "within.coordinates[0][0][1]"),
+        ({"within": {"type": "Polygon", "coordinates": [[[0, 0, 0, 0], *RING]]}}, "within.coordinates[0][0]"),
+        ({"within": {"type": "Polygon", "coordinates": [[[0, 1e9], *RING]]}}, "within.coordinates[0][0][1]"),
+        ({"within": {"type": "Polygon", "coordinates": [FAR_RING]}, "crs": "wgs84"}, "within.coordinates"),
+        ({"within": {"type": "Polygon", "coordinates": [SWAPPED_RING]}, "crs": "wgs84"}, "within.coordinates"),
         ({"within": {"bbox": [0, -91, 1, 1]}, "crs": "wgs84"}, "within.bbox"),
         ({"within": {"circle": {"center": [0, 0], "radius_m": 0}}}, "within.circle.radius_m"),
         ({"within": {"circle": {"center": [0, 0], "radius_m": 1, "x": 1}}}, "within.circle.x"),
@@ -61,6 +87,16 @@ TREE = {"question": "near:tree", "choice": "yes"}
         ({"prior": {"position": [0, 0], "sigma_m": -1}}, "prior.sigma_m"),
         ({"prior": {"position": [0, 0], "sigma_m": 1e-200}}, "prior.sigma_m"),
         ({"prior": {"position": [0, 0]}}, "prior.sigma_m"),
+        ({"prior": {"position": [0, 0], "sigma_m": 5, "radius_m": 5}}, "prior"),
+        ({"prior": {"position": [0, 0], "semi_major_m": 5, "semi_minor_m": 5}}, "prior"),
+        ({"prior": {"position": [0, 0], **ELLIPSE, "radius_m": 5}}, "prior"),
+        ({"prior": {"position": [0, 0], **ELLIPSE, "semi_minor_m": 90}}, "prior.semi_minor_m"),
+        ({"prior": {"position": [0, 0], **ELLIPSE, "orientation_deg": 361}}, "prior.orientation_deg"),
+        ({"prior": {"position": [0, 0], **ELLIPSE, "orientation_deg": "N"}}, "prior.orientation_deg"),
+        ({"prior": {"position": [0, 0], **ELLIPSE, "confidence": 68}}, "prior.confidence"),
+        ({"prior": {"position": [0, 0], "radius_m": 5, "confidence": 0}}, "prior.confidence"),
+        ({"prior": {"position": [0, 0], "radius_m": 5, "confidence": 1}}, "prior.confidence"),
+        ({"prior": {"position": [0, 0], "sigma_m": 5, "confidence": 0.5}}, "prior.confidence"),
         ({"prior": {"position": [181, 0], "sigma_m": 1}, "crs": "wgs84"}, "prior.position"),
         ({"prior": {"position": [114.94, 0], "sigma_m": 1}, "crs": "wgs84"}, "prior.position"),
         ({"prior": {"position": [60.17, 24.94], "sigma_m": 1}, "crs": "wgs84"}, "prior.position"),

@@ -117,7 +117,6 @@ def test_a_changed_file_has_another_tag(page, page_dir, fake):
         "/../outside.js",
         "/page.js/..",
         "/page.js/../../outside.js",
-        "/page.js/",
         "/page.js\0",
         "/PAGE.JS",
         "//page.js",
