@@ -3,6 +3,7 @@
 A city has a million names; as arrays they are memory-mapped at once and need no Python object each.
 """
 
+import re
 from array import array
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -49,6 +50,13 @@ class StringArray(Sequence[str]):
         row = range(len(self))[n]
         first = int(self._ends[row - 1]) if row else 0
         return self._text[first : int(self._ends[row])].tobytes().decode()
+
+    def find(self, string: str) -> Iterator[int]:
+        """Yield the number of each string that equals a string, which is not empty; this scans the text."""
+        for match in re.finditer(re.escape(string.encode()), self._text.data):
+            n = int(np.searchsorted(self._ends, match.end()))
+            if self[n] == string:
+                yield n
 
     def columns(self, name: str) -> dict[str, Column]:
         """Return the arrays that `from_columns` reads, with `name` as a prefix."""

@@ -75,7 +75,7 @@ class AccessLog:
 
 
 class SafeHeaders:
-    """Middleware that makes browsers trust the Content-Type and run nothing in JSON answers."""
+    """Middleware that makes browsers trust the Content-Type and run nothing in JSON and XML answers."""
 
     def __init__(self, app: ASGIApp) -> None:
         self.app = app
@@ -88,7 +88,7 @@ class SafeHeaders:
                 headers = MutableHeaders(scope=message)
                 headers["X-Content-Type-Options"] = "nosniff"
                 headers.setdefault("Referrer-Policy", "no-referrer")
-                if "json" in headers.get("content-type", ""):
+                if re.search("json|text/xml", headers.get("content-type", "")):
                     headers.setdefault("Content-Security-Policy", "default-src 'none'; frame-ancestors 'none'")
             await send(message)
 

@@ -18,8 +18,11 @@ class LocalizerLike(Protocol):
     def localize(self, queries: Sequence[Query]) -> list[Answer]:
         """Return one answer per query, in order; blocks."""
 
-    def describe(self, position_m: tuple[float, float]) -> Described | None:
-        """Describe the position (x, y); None off the map and where nothing is near."""
+    def describe(self, position_m: tuple[float, float], language: str | None = None) -> Described | None:
+        """Describe the position (x, y), its `place` in a language; None off the map and where nothing is near."""
+
+    def position_of(self, source_id: str) -> tuple[float, float] | None:
+        """Return the position (x, y) of an object; None if the map has no such object."""
 
     def cell(self, cell_id: str) -> CellDetail | None:
         """Return a cell of the map; None if there is no such cell."""

@@ -43,9 +43,13 @@ class RemoteLocalizer:
         """Return one answer per query."""
         return self._call("_queries", "localize", list(queries))
 
-    def describe(self, position_m: tuple[float, float]) -> Described | None:
+    def describe(self, position_m: tuple[float, float], language: str | None = None) -> Described | None:
         """Describe a position."""
-        return self._read("describe", position_m)
+        return self._read("describe", position_m, language)
+
+    def position_of(self, source_id: str) -> tuple[float, float] | None:
+        """Return the position of an object."""
+        return self._read("position_of", source_id)
 
     def cell(self, cell_id: str) -> CellDetail | None:
         """Return a cell."""

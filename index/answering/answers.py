@@ -161,6 +161,9 @@ class LikelyPlace:
     place: Annotated[str | None, Field(description="the position in words; null on a map without names")] = None
     supports: Annotated[tuple[str, ...], Field(description="what speaks for it: the `fit` of the evidence there")] = ()
     contradicts: Annotated[tuple[str, ...], Field(description="what speaks against it")] = ()
+    source_id: Annotated[
+        str | None, Field(description="the named place that speaks most for it; null if none does")
+    ] = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -281,6 +284,7 @@ class Described:
     position: Annotated[tuple[float, float], Field(description="x, y in metres, map frame")]
     wgs84: Annotated[LatLon | None, Field(description="null if the map has no georeference")]
     cell_id: Annotated[str, Field(description="the cell whose centre is nearest")]
+    address: dict[str, str] = field(default_factory=dict)  # its parts, by Nominatim's names
 
 
 @dataclass(frozen=True, slots=True)

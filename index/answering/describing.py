@@ -16,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.spatial import cKDTree
 
+from index.answering.address import address_at
 from index.answering.answers import Described, Fact, LatLon
 from index.answering.place_text import (
     CORNER_REACH_M,
@@ -35,6 +36,7 @@ from models.citymap.hints import BEST_CELL_REACH_M, direction_index, round_robin
 from models.citymap.points import Ints
 from models.citymap.templates import OPPOSITE
 from models.citymap.types import DIRECTIONS, Floats, Hint
+from models.language.languages.translation import replies_in, reply_language
 from models.posterior.neighbours.neighbour_index import NeighbourIndex
 
 MAX_FACTS: Final = 6
@@ -91,8 +93,11 @@ class Describer:
         self._cells = cKDTree(gallery.cells.center_m[:, :2])
         self._named, self._near = NamedFacts(gazetteer), NearFacts(gallery, palette, surroundings)
 
-    def describe(self, position: Floats) -> Described | None:
-        """Describe a position [2], metres, map frame; None off the map and where nothing is near."""
+    def describe(self, position: Floats, language: str | None = None) -> Described | None:
+        """Describe a position [2], metres, map frame; None off the map and where nothing is near.
+
+        `place` is in the given language, everything else in English.
+        """
         metres, cell = self._cells.query(position)
         if metres > BEST_CELL_REACH_M:
             return None
@@ -105,13 +110,16 @@ class Describer:
             facts += self._far_facts(position, _mentioned(facts))[: MAX_FACTS - len(facts)]
         if not facts:
             return None
+        with replies_in(language or reply_language()):
+            place = place_text(self._gazetteer, position)
         return Described(
             description=" ".join(fact.text for fact in facts),
             hints=tuple(facts),
-            place=place_text(self._gazetteer, position),
+            place=place,
             position=pair(position),
             wgs84=LatLon.from_position(position, self._frame),
             cell_id=self._ids[int(cell)],
+            address=address_at(self._gazetteer, position),
         )
 
     def _far_facts(self, position: Floats, mentioned: Set[str]) -> list[Fact]:

@@ -20,10 +20,11 @@ from index.answering.answers import (
 from index.answering.describing import Describer
 from index.answering.hint_features import load_hint_features
 from index.answering.meanings import Meanings
+from index.answering.place_text import closest_points_from
 from index.answering.posterior_localizer import PosteriorLocalizer
 from index.answering.query import Query, Refine
 from index.answering.ranking import Ranker
-from index.answering.result import to_answer
+from index.answering.result import pair, to_answer
 from index.answering.vector_localizer import VectorLocalizer, raw_sentences
 from index.build.artifact import find_version, open_version
 from index.build.manifest import ADVICE, Manifest, check_model
@@ -216,9 +217,22 @@ class Localizer:
         record = self.manifest.files.get(name)
         return SceneryPart(self._directory / name, record.sha256) if record else None
 
-    def describe(self, position_m: tuple[float, float]) -> Described | None:
-        """Describe a position (x, y), metres, map frame; None off the map, and where nothing is near."""
-        return self._describer.describe(np.array(position_m, dtype=np.float64))
+    def describe(self, position_m: tuple[float, float], language: str | None = None) -> Described | None:
+        """Describe a position (x, y), metres, map frame; None off the map, and where nothing is near.
+
+        `place` is in the given language, everything else in English.
+        """
+        return self._describer.describe(np.array(position_m, dtype=np.float64), language)
+
+    def position_of(self, source_id: str) -> tuple[float, float] | None:
+        """Return the point of an object that is closest to its middle; None if no such object can be named."""
+        gazetteer = self._gazetteer
+        row = gazetteer.objects.find_source(source_id)
+        if row is None:
+            return None
+        middle = gazetteer.middles_m[row]
+        way = closest_points_from(gazetteer, np.array([row]), middle, float(gazetteer.reach_m[row]) + 1.0)
+        return pair(middle + way.offset_m[0])
 
     def close(self) -> None:
         """Do nothing; the memory is freed with the process."""

@@ -26,6 +26,7 @@ from index.answering.evidence_text import speaks_for
 from index.answering.query import Query
 from models.citymap.cells import CellTable
 from models.citymap.frame import Frame
+from models.citymap.gazetteer.name_columns import STREET_KIND
 from models.citymap.types import Floats
 from models.posterior.distribution import PositionDistribution
 
@@ -136,9 +137,17 @@ def _places(located: PositionDistribution, views: Sequence[PlaceView], frame: Fr
             place=view.place,
             supports=tuple(one.fit for one in view.evidence if speaks_for(one)),
             contradicts=tuple(one.fit for one in view.evidence if not speaks_for(one)),
+            source_id=_best_named_place(view.evidence),
         )
         for mode, view in zip(located.modes, views, strict=True)
     )
+
+
+def _best_named_place(evidence: Sequence[Evidence]) -> str | None:
+    """Return the source of the named place that speaks most for a position; rather no street, and no district."""
+    named = [one for one in evidence if one.exact is not None and one.source_id and not one.absent and speaks_for(one)]
+    named.sort(key=lambda one: (one.instance is not None, one.instance != STREET_KIND, one.exact, one.explained))
+    return named[-1].source_id if named else None
 
 
 def _candidate(located: PositionDistribution, n: int, cells: CellTable, frame: Frame) -> Candidate:

@@ -22,6 +22,7 @@ from models.citymap.frame import Frame
 
 MADE_IT, ANSWERED = ModelName("fake", "ab" * 32), ModelName("posterior/fake", "cd" * 32)
 BOX_M = (-1000.0, -1000.0, 1000.0, 1000.0)
+ADDRESS = {"house_number": "1", "road": "Main Street", "city": "Fakeville", "postcode": "00100"}
 TRUE_FRAME = Frame("map", 60.17, 24.94)
 
 
@@ -55,7 +56,7 @@ class FakeLocalizer:
                 raise RuntimeError("secret: " + query.description)
         return [replace(self._answer(query), language=query.language or "en") for query in queries]
 
-    def describe(self, position_m):
+    def describe(self, position_m, language=None):
         self.positions.append(position_m)
         self.threads.add(threading.current_thread().name)
         assert self.gate.wait(60), "a test left the gate closed"
@@ -64,7 +65,11 @@ class FakeLocalizer:
         tree = Fact("A green tree is 3 m to my east.", "tree", None, "node/1", (3.0, 0.0), 3.0, 90.0)
         road = Fact("I stand on the road.", "road", "Main Street", "way/2", position_m, 0.0, None)
         text = f"{tree.text} {road.text}"
-        return Described(text, (tree, road), "on Main Street", position_m, self._wgs84(), "fakeville_00001")
+        place = "Main Streetillä" if language == "fi" else "on Main Street"
+        return Described(text, (tree, road), place, position_m, self._wgs84(), "fakeville_00001", ADDRESS)
+
+    def position_of(self, source_id):
+        return {"node/1": (3.0, 0.0), "way/2": (0.0, 0.0), "way/3": (5000.0, 0.0)}.get(source_id)
 
     def cell(self, cell_id):
         if cell_id != "fakeville_00001":
@@ -111,8 +116,8 @@ class FakeLocalizer:
             self._wgs84(),
         )
         places = tuple(
-            LikelyPlace(p, (x, 0.0), self._wgs84(), 15.0, None, ("tree: 3 m to the east",))
-            for x, p in ((0.0, 0.8), (90.0, 0.1))
+            LikelyPlace(p, (x, 0.0), self._wgs84(), 15.0, None, ("tree: 3 m to the east",), source_id=source_id)
+            for x, p, source_id in ((0.0, 0.8, "node/1"), (90.0, 0.1, "bins.geojson/3"))
         )
         return Answer("ok", ANSWERED, estimate, candidates, 0.1, places, timings_ms=timings)
 

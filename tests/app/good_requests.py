@@ -11,6 +11,8 @@ GOOD = {  # by method and path of the OpenAPI document: what httpx sends
     "GET /evaluate/{job}/events": {},
     "GET /search": {"params": {"q": "a tree"}},
     "GET /reverse": {"params": {"lat": 60.17, "lon": 24.94}},
+    "GET /lookup": {"params": {"osm_ids": "N1"}},
+    "GET /status": {},
     "GET /cells": {},
     "GET /cells/{cell_id}": {},
     "GET /maps/{name}": {},

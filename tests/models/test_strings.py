@@ -104,3 +104,11 @@ def test_many_categories_take_more_bytes() -> None:
     assert Categorical.from_strings(strings).codes.dtype == np.int16
     assert Categorical.from_strings(strings) == strings
     assert np.array(Categorical.from_strings(strings[:3])).dtype.kind == "U"
+
+
+def test_strings_are_found_whole() -> None:
+    strings = StringArray.from_strings(["way/1", "", "way/12", "a way/1", "way/1", "ä"])
+    assert [*strings.find("way/1")] == [0, 4]
+    assert [*strings.find("way/12")] == [2]
+    assert [*strings.find("ä")] == [5]
+    assert [*strings.find("way/")] == [*strings.find("/1way")] == [*StringArray.from_strings([]).find("a")] == []

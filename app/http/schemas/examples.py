@@ -42,6 +42,7 @@ ANSWERED: JsonValue = {
             "place": "on Kaivokatu, between Keskuskatu and Mikonkatu, 14 m south of Ateneum",
             "supports": ["Ateneum: 14 m to your right"],
             "contradicts": [],
+            "source_id": "relation/1655211",
         }
     ],
     "candidates": [

@@ -80,6 +80,14 @@ class ObjectTable(Sequence[GazetteerObject]):
         names, own_kinds = tuple(strings), tuple(self._all_kinds[kind] for kind in kinds)
         return GazetteerObject(own_kinds, names, number, street, source, tuple(codes.split(";")) if codes else ())
 
+    def find_source(self, source_id: str) -> int | None:
+        """Return the object that was read from an element; None if there is none."""
+        for string in self._strings.find(source_id):
+            row = int(np.searchsorted(self._string_starts, string, side="right")) - 1
+            if self[row].source_id == source_id:
+                return row
+        return None
+
     @property
     def known_kinds(self) -> Sequence[str]:
         """Return all kinds, ascending."""

@@ -24,7 +24,8 @@ from models.errors import StoreUnavailable
 
 READ = "read-key-1"
 GEO, PICTURE = {"Accept": "application/geo+json"}, {"Accept": "image/png"}
-QUEUED = ("POST /localize", "POST /localize/batch", "POST /describe", "POST /evaluate", "GET /search", "GET /reverse")
+GEOCODER = ("GET /search", "GET /reverse", "GET /lookup", "GET /status")
+QUEUED = ("POST /localize", "POST /localize/batch", "POST /describe", "POST /evaluate", *GEOCODER)
 DRAWN = ("GET /cells", "GET /cells/{cell_id}")
 CACHED = (*DRAWN, "GET /maps/{name}/points")
 OF_MAP = (*CACHED, "GET /maps/{name}")
@@ -38,6 +39,7 @@ WORK = {  # what a localizer does for an operation
     "POST /describe": "describe",
     "GET /search": "localize",
     "GET /reverse": "describe",
+    "GET /lookup": "position_of",
     "GET /cells": "cells",
     "GET /cells/{cell_id}": "cell",
     "GET /maps/{name}/points": "scenery",
@@ -122,7 +124,7 @@ def another_format(services, operation, patch):
     return ask(services(), operation, headers=PICTURE)
 
 
-@provokes(406, "no_georeference", "POST /localize", "GET /search", "GET /reverse", *DRAWN)
+@provokes(406, "no_georeference", "POST /localize", *GEOCODER[:3], *DRAWN)
 def map_that_is_nowhere(services, operation, patch):
     return ask(services("nowhere", lambda: FakeLocalizer(Frame())), operation, headers=GEO)
 
@@ -173,7 +175,7 @@ def unknown_field(services, operation, patch):
     return ask(services(), operation, json={"unknown": 1})
 
 
-@provokes(422, "invalid_request", "GET /search", "GET /reverse", *OF_MAP)
+@provokes(422, "invalid_request", *GEOCODER, *OF_MAP)
 def index_that_is_no_name(services, operation, patch):
     return of_index(services(), operation, "../x")
 

@@ -33,7 +33,7 @@ class Fake:
             time.sleep(0.5)
         return [Answer("no_match", FakeLocalizer.facts.model, warnings=(str(os.getpid()), str(os.getppid())))]
 
-    def describe(self, position_m):
+    def describe(self, position_m, language=None):
         return os.getpid(), position_m
 
     def cell(self, cell_id):

@@ -110,6 +110,20 @@ def test_a_described_position_knows_its_cell_and_place(localizer, cells):
     assert localizer.frame.from_wgs84(described.wgs84.lat, described.wgs84.lon) == pytest.approx([60.0, 61.0], abs=0.02)
 
 
+def test_the_place_is_in_the_language_of_the_reply(localizer):
+    english, finnish = localizer.describe((60.0, 61.0)), localizer.describe((60.0, 61.0), "fi")
+    assert english.place != finnish.place
+    assert replace(finnish, place=english.place) == english
+    assert english.address["road"] in english.place
+
+
+def test_an_object_has_a_position_on_it(localizer):
+    street = localizer.describe((60.0, 61.0)).hints[0]
+    x, y = localizer.position_of(street.source_id)
+    assert localizer.describe((x, y)).hints[0].name == street.name
+    assert localizer.position_of("way/0") is None
+
+
 @pytest.mark.parametrize("position", [(-400.0, 0.0), (1e8, 1e8), (-1e8, 0.0)])
 def test_there_is_nothing_to_say_off_the_map(localizer, position):
     assert localizer.describe(position) is None

@@ -113,6 +113,7 @@ def test_each_place_has_what_speaks_for_and_against_it(localizer) -> None:
     for place in result.places:
         assert [text.partition(":")[0] for text in place.supports] == ["East Street 2"]
         assert place.contradicts == tuple(one.fit for one in result.evidence if not one.explained)
+        assert place.source_id == next(one.source_id for one in result.evidence if one.text == "East Street 2")
     assert sum(place.probability for place in result.places) <= 1.0 + 1e-9
 
 

@@ -110,3 +110,19 @@ def test_what_was_opened_can_be_changed_and_the_file_stays(town, tmp_path) -> No
     loaded.segments_m[:] = 7.0
     assert (tmp_path / GAZETTEER_FILE).read_bytes() == before
     assert (loaded.segments_m == 7.0).all()
+
+
+def test_an_object_is_found_by_its_element() -> None:
+    names = [("way/1",), ("A",), ()]
+    objects = [
+        GazetteerObject(("shop",), name, source_id=source)
+        for name, source in zip(names, ("node/7", "way/1", "way/12"), strict=True)
+    ]
+    table = build_gazetteer(objects, [np.zeros((1, 4))] * 3, [False] * 3).objects
+    assert [table.find_source(source) for source in ("node/7", "way/1", "way/12", "way/2", "1")] == [
+        0,
+        1,
+        2,
+        None,
+        None,
+    ]
