@@ -204,6 +204,7 @@ class Limits(_Out):
     max_characters: int
     max_hints: int
     max_items: int = Field(description="items of one POST /localize/batch")
+    max_rows: int = Field(description="rows of one POST /localize/batch with a CSV table")
     max_top_k: int
     max_queue: int
     max_wait_ms: int = Field(description="longest expected wait for a worker; a longer one is refused with 429")
@@ -221,6 +222,7 @@ class Limits(_Out):
             max_characters=limits.MAX_DESCRIPTION_CHARACTERS,
             max_hints=limits.MAX_HINTS,
             max_items=limits.MAX_BATCH_ITEMS,
+            max_rows=limits.MAX_BATCH_ROWS,
             max_top_k=limits.MAX_TOP_K,
             max_queue=limits.MAX_WAITING_QUERIES,
             max_wait_ms=settings.max_wait_ms,
