@@ -38,8 +38,9 @@ def batch(
 
         try:
             table = CsvTable.check(lambda: table_path.open("rb"), text, lang_column)
-            if out.exists() and out.samefile(table_path):
-                raise DataError("is also the output; give another --out")
+            out = out.resolve()  # replace the target of a link, not the link
+            if out.is_dir() or (out.exists() and out.samefile(table_path)):
+                raise DataError(f"cannot be written to {out}; give a file that is neither the table nor a directory")
         except (DataError, OSError) as error:
             raise DataError(f"{table_path}: {getattr(error, 'strerror', None) or error}") from None
         directory, manifest = open_version(index_dir)

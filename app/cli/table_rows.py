@@ -4,6 +4,7 @@ import csv
 import fcntl
 import hashlib
 import os
+import re
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -31,23 +32,27 @@ ROWS_AHEAD: Final = 16  # per worker, so that a slow row does not leave the othe
 def unfinished(out: Path, table_path: Path, work: Sequence[object]) -> Iterator[BinaryIO]:
     """Open the unfinished output of the same work; it becomes `out` when the block ends, and stays on an error."""
     parts = sha256(table_path), version("hereabouts"), *work
-    name = f"{out.name}.{hashlib.sha256(repr(parts).encode()).hexdigest()[:12]}.partial"
-    out.parent.mkdir(parents=True, exist_ok=True)
-    for other in out.parent.iterdir():
-        if other.name.startswith(f"{out.name}.") and other.suffix == ".partial" and other.name != name:
-            raise DataError(
-                f"{other} is the unfinished output of another table, other options or another index; delete it to "
-                "start again, or give another --out"
-            )
-    with (out.parent / name).open("a+b") as file:
-        try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            raise DataError(f"{out} is being written by another process; wait for it") from None
-        yield file
-        os.fsync(file.fileno())
-        (out.parent / name).replace(out)
-        sync(out.parent)
+    path = out.with_name(f"{out.name}.{hashlib.sha256(repr(parts).encode()).hexdigest()[:12]}.partial")
+    try:
+        out.parent.mkdir(parents=True, exist_ok=True)
+        for other in out.parent.iterdir():
+            if re.fullmatch(rf"{re.escape(out.name)}\.[0-9a-f]{{12}}\.partial", other.name) and other != path:
+                raise DataError(
+                    f"{other} is the unfinished output of another table, other options or another index; delete it to "
+                    "start again, or give another --out"
+                )
+        with path.open("a+b") as file:
+            try:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                raise DataError(f"{out} is being written by another process; wait for it") from None
+            yield file
+            file.flush()
+            os.fsync(file.fileno())
+            path.replace(out)
+            sync(out.parent)
+    except OSError as error:
+        raise DataError(f"{out} cannot be written: {error}; correct that, and run this again to continue") from error
 
 
 def write_rows(
@@ -85,7 +90,8 @@ def _resume(file: BinaryIO, table: CsvTable) -> Counter[str]:
             if line.endswith(ROW_END):
                 end_bytes = read_bytes
                 statuses[row[-1]] += 1
-    file.truncate(end_bytes)
+    file.seek(end_bytes)
+    file.truncate()
     return statuses
 
 

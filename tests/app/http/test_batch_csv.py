@@ -16,17 +16,6 @@ CSV = {"Content-Type": "text/csv"}
 ADDED = ",".join(COLUMNS)
 
 
-class Answering(FakeLocalizer):
-    """Changes the answers of the fake by a function of the query."""
-
-    def __init__(self, change):
-        super().__init__()
-        self.change = change
-
-    def localize(self, queries):
-        return [self.change(query, answer) for query, answer in zip(queries, super().localize(queries), strict=True)]
-
-
 def post(api, content, params="?text=narrative", headers=CSV):
     content = content if isinstance(content, bytes) else content.encode()
     return api.post(f"/localize/batch{params}", content=content, headers=headers)
@@ -52,12 +41,13 @@ def test_columns_are_kept_and_a_sure_answer_is_georeferenced(api):
     assert row["localizationStatus"] == "ok"
 
 
-def test_a_row_without_a_sure_position_has_a_reason(api, _shared):
-    def change(query, answer):
+def test_a_row_without_a_sure_position_has_a_reason(api, fake, monkeypatch):
+    def answer(query):
+        plain = FakeLocalizer._answer(fake, query)
         places = (LikelyPlace(0.6, (0.0, 0.0), LatLon(60.17, 24.94), 9.0, "on Main Street"),)
-        return replace(answer, status="ambiguous", places=places) if "two" in query.description else answer
+        return replace(plain, status="ambiguous", places=places) if "two" in query.description else plain
 
-    _shared[1].own = Answering(change)
+    monkeypatch.setattr(fake, "_answer", answer)
     rows = rows_of(post(api, 'narrative\ntwo trees\nnowhere\n""\n...\n"a tree\x07"\n' + "a" * 4001))
     assert [(row["localizationStatus"], row["georeferenceRemarks"]) for row in rows] == [
         ("ambiguous", "60 % 60.17000, 24.94000 on Main Street"),
@@ -77,11 +67,12 @@ def test_a_row_without_a_sure_position_has_a_reason(api, _shared):
 @pytest.mark.parametrize(
     "cell", ["=1+1", "+A1", "-A1", "@SUM(1)", "\t=1", "\r=1", "\n=1", "\uff1d1", '=cmd|"/c calc"!A0', "-1-1", "+"]
 )
-def test_a_formula_gets_an_apostrophe(api, _shared, cell):
-    def change(_query, answer):
-        return replace(answer, estimate=replace(answer.estimate, place=cell))
+def test_a_formula_gets_an_apostrophe(api, fake, monkeypatch, cell):
+    def answer(query):
+        plain = FakeLocalizer._answer(fake, query)
+        return replace(plain, estimate=replace(plain.estimate, place=cell))
 
-    _shared[1].own = Answering(change)
+    monkeypatch.setattr(fake, "_answer", answer)
     quoted = f'"{cell}"'.replace('cmd|"/c calc"', 'cmd|""/c calc""')
     response = post(api, f"{quoted},narrative\r\n{quoted},a tree\r\n")
     header, row = csv.reader(io.StringIO(response.text, newline=""), strict=True)
