@@ -18,6 +18,7 @@ ROW_END: Final = b"\r\n"  # RFC 4180
 MAX_LISTED_COLUMNS: Final = 20  # in an error message
 # Spreadsheets read text that begins so as a formula (OWASP, CSV injection); the last four are full-width forms.
 FORMULA_STARTS: Final = tuple("=+-@\t\r\n\uff1d\uff0b\uff0d\uff20")
+BLANKS: Final = " \xa0\ufeff"  # before a formula; spreadsheets may drop them
 _NUMBER: Final = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)(e[+-]?\d+)?", re.A | re.I)
 _PLAIN_NAME: Final = re.compile(r"[\w ().:-]{1,64}")
 _NOT_UTF8: Final = re.compile("[\udc80-\udcff]")  # how `surrogateescape` decodes other bytes
@@ -49,8 +50,8 @@ class CsvTable:
         number, header = next(rows, (1, []))
         if clashes := [name for name in COLUMNS if name in map(str.strip, header)]:
             raise DataError(f"row {number}: the columns {', '.join(clashes)} would be added; rename or remove them")
-        text_column = _column(number, header, text)
-        language_column = None if language is None else _column(number, header, language)
+        text_column = _column(number, header, text, "text")
+        language_column = None if language is None else _column(number, header, language, "language")
         num_rows = 0
         for number, row in rows:
             num_rows += 1
@@ -84,7 +85,8 @@ class CsvTable:
 
 
 def _without_formula(cell: str) -> str:
-    return f"'{cell}" if cell.startswith(FORMULA_STARTS) and not _NUMBER.fullmatch(cell) else cell
+    is_formula = cell.lstrip(BLANKS).startswith(FORMULA_STARTS) and not _NUMBER.fullmatch(cell)
+    return f"'{cell}" if is_formula else cell
 
 
 def _open_text(open_bytes: Callable[[], BinaryIO]) -> io.TextIOWrapper:
@@ -109,16 +111,16 @@ def _read(open_bytes: Callable[[], BinaryIO], delimiter: str) -> Iterator[tuple[
                     yield number, row
         except csv.Error as error:
             raise DataError(
-                f"row {number + 1}: its quotes are wrong ({error}); close each double quote, and double those inside"
+                f"row {number + 1}: cannot be read ({error}); close each double quote, and double those inside"
             ) from None
 
 
-def _column(number: int, header: Sequence[str], name: str) -> int:
-    """Return the position of a column in the header, which is row `number`."""
+def _column(number: int, header: Sequence[str], name: str, content: str) -> int:
+    """Return the position of the column with the text or the language in the header, which is row `number`."""
     names = [each.strip() for each in header]
-    if names.count(name) == 1:
-        return names.index(name)
-    if name in names:
-        raise DataError(f"row {number}: {names.count(name)} columns have the name of the text or language; rename one")
-    listed = ", ".join(filter(_PLAIN_NAME.fullmatch, names[:MAX_LISTED_COLUMNS]))
-    raise DataError(f"row {number}: no column has the name that was given; the columns are {listed}")
+    if names.count(name) > 1:
+        raise DataError(f"row {number}: {names.count(name)} columns have the name given for the {content}; rename one")
+    if name not in names:
+        listed = ", ".join(filter(_PLAIN_NAME.fullmatch, names[:MAX_LISTED_COLUMNS]))
+        raise DataError(f"row {number}: no column has the name given for the {content}; the columns are {listed}")
+    return names.index(name)

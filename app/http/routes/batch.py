@@ -149,7 +149,7 @@ async def _answer_table(
                 cells = georeference(result, frame)
             return table.encode([*row, *cells])
 
-        rows = await _answer_each(answer, table.rows())
+        rows = await _answer_each(answer, await asyncio.to_thread(list, table.rows()))
     return Response(table.encoded_header() + b"".join(rows), media_type=CSV, headers=language_headers(request))
 
 

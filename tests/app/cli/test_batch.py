@@ -226,7 +226,7 @@ def test_a_bounded_number_of_rows_is_read_ahead(table):
     ("content", "words"),
     [
         (b"id,text\n1,a tree\n2\n", "calls.csv: row 3: has 1 cells"),
-        (b"id,words\n", "calls.csv: row 1: no column has the name that was given; the columns are id, words"),
+        (b"id,words\n", "calls.csv: row 1: no column has the name given for the text; the columns are id, words"),
         (None, "calls.csv: No such file"),
     ],
 )
