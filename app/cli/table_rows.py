@@ -17,6 +17,8 @@ from pathlib import Path
 from queue import SimpleQueue
 from typing import BinaryIO, Final
 
+from pydantic import ValidationError
+
 from app.http.formats.csv_table import BOM, ROW_END, CsvTable
 from app.http.formats.darwin_core import COLUMNS, ERROR, georeference, to_request, without_position
 from app.http.protocol import LocalizerLike
@@ -100,11 +102,12 @@ def _answered_row(table: CsvTable, row: list[str], localizer: LocalizerLike) -> 
     try:
         query = replace(to_request(row[table.text_column]).to_query(), language=table.language_of(row))
         [answer] = localizer.localize([query])
+        response = LocalizeResponse.build(answer, localizer, "", {})
     except DescriptionError as error:
         return [*row, *without_position(ERROR, [str(error)])]
-    except WorkerFault:
+    except (WorkerFault, ValidationError):
         return [*row, *without_position(ERROR, ["internal error; please report it with this text"])]
-    return [*row, *georeference(LocalizeResponse.build(answer, localizer, "", {}), localizer.frame)]
+    return [*row, *georeference(response, localizer.frame)]
 
 
 def _in_order(

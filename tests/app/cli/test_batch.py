@@ -189,13 +189,13 @@ def test_a_full_disk_leaves_what_can_be_continued(version, table, monkeypatch):
 
 @pytest.mark.parametrize("num_localizers", [1, 3])
 def test_rows_stay_in_order_and_a_fault_fails_alone(version, table, num_localizers):
-    table.write_text("text\n" + "".join(f"late {n}\n" for n in range(150)) + "fault\nlate 150\n")
+    table.write_text("text\n" + "".join(f"late {n}\n" for n in range(150)) + "fault\nnan\nlate 150\n")
     version.localizers = [Uneven() for _ in range(num_localizers)]
     out = table.with_name("out.csv")
     assert run(table, out).exit_code == 1
     rows = list(csv.DictReader(io.StringIO(out.read_text(), newline="")))
-    assert [row["text"] for row in rows] == [*(f"late {n}" for n in range(150)), "fault", "late 150"]
-    assert [row["text"] for row in rows if row["localizationStatus"] == "error"] == ["fault"]
+    assert [row["text"] for row in rows] == [*(f"late {n}" for n in range(150)), "fault", "nan", "late 150"]
+    assert [row["text"] for row in rows if row["localizationStatus"] == "error"] == ["fault", "nan"]
 
 
 def test_a_bounded_number_of_rows_is_read_ahead(table):
