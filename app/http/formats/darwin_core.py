@@ -6,7 +6,6 @@ from importlib.metadata import version
 from typing import Final
 
 import numpy as np
-import shapely
 from pydantic import ValidationError
 
 from app.http.errors import field_message
@@ -41,7 +40,7 @@ PROTOCOL: Final = (
     "the uncertainty and the footprint contain the position with probability 0.9"
 )
 SEPARATOR: Final = " | "  # of lists, as Darwin Core recommends
-FOOTPRINT_DIGITS: Final = 6  # 0.1 m
+FOOTPRINT_CORNERS: Final = 32  # of a circle
 
 
 def to_request(text: str, index: str = DEFAULT_ALIAS) -> LocalizeRequest:
@@ -89,6 +88,7 @@ def _in_words(place: LikelyPlace) -> str:
 
 
 def _circle(center_m: tuple[float, float], radius_m: float, frame: Frame) -> str:
-    circle = shapely.Point(center_m).buffer(radius_m, quad_segs=8)
-    degrees = shapely.transform(circle, lambda points_m: np.column_stack(frame.to_wgs84(points_m)[::-1]))
-    return shapely.to_wkt(degrees, rounding_precision=FOOTPRINT_DIGITS)
+    angles = np.linspace(0, 2 * np.pi, FOOTPRINT_CORNERS, endpoint=False)
+    lat, lon = frame.to_wgs84(center_m + radius_m * np.column_stack([np.cos(angles), np.sin(angles)]))
+    corners = [f"{x:.6f} {y:.6f}" for x, y in zip(lon, lat, strict=True)]
+    return f"POLYGON (({', '.join([*corners, corners[0]])}))"
