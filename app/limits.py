@@ -10,6 +10,7 @@ MAX_DESCRIPTION_CHARACTERS: Final = 4000  # the longest text in models/reports/t
 MAX_HINTS: Final = 32  # or sentences; texts in models/reports/texts have at most 5
 MAX_BATCH_ITEMS: Final = 64
 MAX_VERTICES: Final = 2000  # of `within`; the test of 1,000,000 cells takes about a second
+MAX_BATCH_ROWS: Final = 1000  # of a CSV table: with two CPUs, less than the minute after which proxies give up
 MAX_TOP_K: Final = 40  # the maximum of Nominatim's `limit`
 MAX_WAITING_QUERIES: Final = 256  # bounds memory; max_wait_ms refuses most queries earlier
 DEFAULT_DEADLINE_MS: Final = 10_000

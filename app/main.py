@@ -106,7 +106,7 @@ def _add_routes(app: FastAPI, settings: Settings, page_dir: Path) -> None:
     # FastAPI hides routes of included routers.
     app.state.routes = [route for router in routers for route in router.routes]
     larger = {evaluate.PATH: limits.MAX_EVALUATE_BODY_BYTES, batch.PATH: limits.MAX_BATCH_BODY_BYTES}
-    app.add_middleware(StrictBody, max_bytes=limits.MAX_BODY_BYTES, larger=larger)
+    app.add_middleware(StrictBody, max_bytes=limits.MAX_BODY_BYTES, larger=larger, tables={batch.PATH})
     app.add_middleware(Gzip, compresslevel=GZIP_LEVEL)
     app.add_middleware(HeadAsGet)
     app.add_middleware(KeyCheck, read_key=settings.read_key, open_routes=open_routes(routers))

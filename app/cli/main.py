@@ -20,6 +20,7 @@ from app.cli import measure as cli_measure
 from app.cli import reproduce as cli_reproduce
 from app.cli import train as cli_train
 from app.cli.aliases import aliases
+from app.cli.batch import batch
 from app.cli.options import (
     DATA_HELP,
     EXTRA_FORMATS,
@@ -302,6 +303,7 @@ def _print_table(answer: "Answer") -> None:
 
 
 for command in (
+    batch,
     cli_maps.check,
     cli_data.prepare,
     cli_data.convert,

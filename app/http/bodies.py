@@ -1,10 +1,10 @@
-"""Limits on request bodies: strict JSON, bounded size (each and in total), and bounded time."""
+"""Limits on request bodies: strict JSON or CSV, bounded size (each and in total), and bounded time."""
 
 import asyncio
 import json
 import re
 from codecs import BOM_UTF8
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any, Final
 
@@ -14,6 +14,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from app.http.errors import Code, Problem
 from app.http.proxies import route_path
 
+CSV: Final = "text/csv"
 MAX_JSON_DEPTH: Final = 32
 MAX_JSON_VALUES: Final = 400_000  # of one body; commas inside strings count too
 LARGE_BODY_BYTES: Final = 65_536  # larger bodies are parsed in a thread, so that the event loop is not blocked
@@ -27,7 +28,8 @@ REFUSALS: Final = (  # problems of a body, on any route
     Code.BODIES_FULL,
 )
 _CONTENT_TYPE = re.compile(
-    r"application/json(?P<parameters>(\s*;\s*[\w.+-]+=(\"[\w .+-]*\"|[\w.+-]+))*)\s*;?\s*", re.A | re.I
+    r"(?P<type>application/json|text/csv)(?P<parameters>(\s*;\s*[\w.+-]+=(\"[\w .+-]*\"|[\w.+-]+))*)\s*;?\s*",
+    re.A | re.I,
 )
 _CHARSET = re.compile(r";\s*charset=([^\s;]*)", re.I)
 
@@ -37,11 +39,14 @@ Reserve = Callable[[int], None]  # for a body of this size
 class StrictBody:
     """Middleware that checks a body when the route first reads it, so that an unknown path is a 404 whatever the body.
 
-    `larger` maps paths to limits other than `max_bytes`.
+    `larger` maps paths to limits other than `max_bytes`; `tables` are the paths that also take CSV, which they check.
     """
 
-    def __init__(self, app: ASGIApp, max_bytes: int, larger: Mapping[str, int] | None = None) -> None:
+    def __init__(
+        self, app: ASGIApp, max_bytes: int, larger: Mapping[str, int] | None = None, tables: Collection[str] = ()
+    ) -> None:
         self.app = app
+        self.tables = tables
         self.max_bytes = max_bytes
         self.larger = larger or {}
         self._large = LargeBodies(MAX_LARGE_BODIES * max(max_bytes, *self.larger.values(), LARGE_BODY_BYTES))
@@ -55,8 +60,7 @@ class StrictBody:
         with self._large.reservation() as reserve:
             await self.app(scope, self._checked(scope, receive, max_bytes, reserve), send)
 
-    @staticmethod
-    def _checked(scope: Scope, receive: Receive, max_bytes: int, reserve: Reserve) -> Receive:
+    def _checked(self, scope: Scope, receive: Receive, max_bytes: int, reserve: Reserve) -> Receive:
         is_read = False
 
         async def receive_checked() -> Message:
@@ -64,7 +68,9 @@ class StrictBody:
             if is_read:
                 return await receive()
             is_read = True
-            check_headers(RequestHeaders(scope=scope), max_bytes)
+            media_type = check_headers(RequestHeaders(scope=scope), max_bytes)
+            if media_type == CSV and route_path(scope) not in self.tables:
+                raise Problem(Code.UNSUPPORTED_MEDIA_TYPE)
             try:
                 async with asyncio.timeout(BODY_TIMEOUT_S):
                     body = await read_body(receive, max_bytes, reserve)
@@ -75,7 +81,9 @@ class StrictBody:
             if body is None:
                 return {"type": "http.disconnect"}
             body = body.removeprefix(BOM_UTF8)
-            if len(body) < LARGE_BODY_BYTES:
+            if media_type == CSV:
+                pass  # the route checks it
+            elif len(body) < LARGE_BODY_BYTES:
                 check_json(body)
             else:
                 await asyncio.to_thread(check_json, body)
@@ -109,8 +117,8 @@ class LargeBodies:
             self.bytes -= reserved
 
 
-def check_headers(headers: RequestHeaders, max_bytes: int) -> None:
-    """Raise 415 or 413 if the headers show the wrong type or too large a size."""
+def check_headers(headers: RequestHeaders, max_bytes: int) -> str:
+    """Return the media type; raise 415 or 413 if the headers show the wrong type or too large a size."""
     content_type = _CONTENT_TYPE.fullmatch(headers.get("content-type", ""))
     charsets = _CHARSET.findall(content_type["parameters"]) if content_type else []
     if content_type is None or any(charset.strip('"').lower() != "utf-8" for charset in charsets):
@@ -120,6 +128,7 @@ def check_headers(headers: RequestHeaders, max_bytes: int) -> None:
     length = headers.get("content-length", "")
     if length.isdecimal() and int(length[:20]) > max_bytes:
         raise _too_large(max_bytes)
+    return content_type["type"].lower()
 
 
 async def read_body(receive: Receive, max_bytes: int, reserve: Reserve) -> bytes | None:

@@ -96,7 +96,11 @@ class Code(Enum):
         "The directory is read-only or the disk is full; the operator has to fix that. Nothing was changed.",
     )
     BODY_TOO_LARGE = (413, "The body is too large", "Send a smaller body; GET /info gives the limits.")
-    UNSUPPORTED_MEDIA_TYPE = (415, "The body has the wrong type", "Send Content-Type: application/json.")
+    UNSUPPORTED_MEDIA_TYPE = (
+        415,
+        "The body has the wrong type",
+        "Send Content-Type: application/json; POST /localize/batch also takes text/csv.",
+    )
     INVALID_REQUEST = (422, "The request is invalid", "Correct the fields listed in `errors`.")
     QUEUE_FULL = (429, "Too many requests are waiting", "Try again after Retry-After seconds.", 1)
     BODIES_FULL = (429, "Too many large bodies at once", "Try again after Retry-After seconds.", 2)

@@ -61,12 +61,17 @@ async def localize(request: Request, body: LocalizeRequest, indexes: AllIndexes)
     return respond(content, media_type, language_headers(request))
 
 
-async def localize_for(request: Request, body: LocalizeRequest, queue: InferenceQueue) -> LocalizeResponse:
-    """Return the answer to a description; cancel the query if the client disconnects."""
+async def localize_for(
+    request: Request, body: LocalizeRequest, queue: InferenceQueue, language: str | None = None
+) -> LocalizeResponse:
+    """Return the answer to a description, by default in a language of the Accept-Language header.
+
+    The query is cancelled if the client disconnects.
+    """
     started_s = time.monotonic()
     deadline_s = started_s + body.deadline_ms / 1000
     descriptions_of(request.scope).append(body.text())
-    query = replace(body.to_query(), language=negotiate_language(request))
+    query = replace(body.to_query(), language=language or negotiate_language(request))
     served = await run_while_connected(request, queue.submit(query, deadline_s))
     reply_languages_of(request.scope).append(served.answer.language)
     timings_ms = {"queue": served.queue_ms, "total": (time.monotonic() - started_s) * 1000}

@@ -204,6 +204,7 @@ class Limits(_Out):
     max_characters: int
     max_hints: int
     max_items: int = Field(description="items of one POST /localize/batch")
+    max_rows: int = Field(description="rows of one POST /localize/batch with a CSV table")
     max_top_k: int
     max_vertices: int = Field(description="vertices of the polygons of one `within`")
     max_queue: int
@@ -222,6 +223,7 @@ class Limits(_Out):
             max_characters=limits.MAX_DESCRIPTION_CHARACTERS,
             max_hints=limits.MAX_HINTS,
             max_items=limits.MAX_BATCH_ITEMS,
+            max_rows=limits.MAX_BATCH_ROWS,
             max_top_k=limits.MAX_TOP_K,
             max_vertices=limits.MAX_VERTICES,
             max_queue=limits.MAX_WAITING_QUERIES,

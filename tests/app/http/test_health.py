@@ -77,6 +77,7 @@ def test_info_shows_limits_and_index(api):
         "max_characters": 4000,
         "max_hints": 32,
         "max_items": 64,
+        "max_rows": 1000,
         "max_top_k": 40,
         "max_vertices": 2000,
         "max_queue": 256,
