@@ -1,4 +1,4 @@
-"""What an operator does on the page: paste transcripts, correct answers, save them, and locate tables."""
+"""The page for an operator: paste transcripts, correct answers, save them, and locate tables."""
 
 import json
 

@@ -327,8 +327,7 @@ class Page implements Acts {
     const { answer, places, chosen } = this.shown;
     if (!answer) return;
     const correction = this.info?.corrections ? { ...this.correction, hasPin: this.shown.right !== null, isPinning: this.tool === "correct" } : null;
-    const focused = document.activeElement?.id;
-    const hadFocus = this.panel.answer.contains(document.activeElement);
+    const [focused, hadFocus] = [document.activeElement?.id, this.panel.answer.contains(document.activeElement)];
     showAnswer(this.panel.answer, this.shown.said, answer, places, chosen, { replies: this.state.answers, isInside: this.state.within !== null, correction }, this);
     this.panel.announce();
     if (hadFocus) (this.panel.answer.querySelector<HTMLElement>(focused ? `#${focused}:enabled` : "none") ?? this.panel.answer.querySelector<HTMLElement>('.place[aria-pressed="true"]') ?? this.panel.answer.querySelector("h2"))?.focus();
