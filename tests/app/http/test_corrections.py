@@ -37,7 +37,8 @@ def test_a_correction_is_a_text_to_evaluate(correcting, file, fake):
     assert correcting.post(PATH, json=degrees).status_code == 201
     first, second = load_place_texts(file)
     assert first == PlaceText(TEXT, pytest.approx((lat, lon), abs=1e-7))
-    assert (second.text, second.goal) == ("a\nb", pytest.approx((lat, lon), abs=1e-7))
+    assert second.text == "a\nb"
+    assert second.goal == pytest.approx((lat, lon), abs=1e-7)
     assert second.start == pytest.approx((60.17, 24.94))
     row = json.loads(file.read_text().splitlines()[0])
     assert row == response.json()
