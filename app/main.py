@@ -23,7 +23,7 @@ from app.http.openapi import describe as describe_app
 from app.http.openapi import error_table
 from app.http.protocol import LocalizerLike
 from app.http.proxies import ProxiedRequests
-from app.http.routes import batch, cells, describe, evaluate, geocoder, health, localize, maps, page
+from app.http.routes import batch, cells, corrections, describe, evaluate, geocoder, health, localize, maps, page
 from app.http.routes import indexes as index_routes
 from app.jobs.runner import EvaluationJobs
 from app.settings import Settings
@@ -99,7 +99,7 @@ def _create_fastapi(lifespan: Callable[[FastAPI], AbstractAsyncContextManager[No
 
 def _add_routes(app: FastAPI, settings: Settings, page_dir: Path) -> None:
     """Add the routes and the middleware; the middleware that is added last runs first."""
-    modules = (localize, batch, describe, evaluate, geocoder, cells, maps, index_routes, health)
+    modules = (localize, batch, describe, corrections, evaluate, geocoder, cells, maps, index_routes, health)
     routers = (*(module.router for module in modules), page.build_router(page_dir))
     for router in routers:
         app.include_router(router)

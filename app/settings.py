@@ -57,6 +57,9 @@ class Settings(BaseSettings):
     jobs_dir: Path | None = Field(
         None, description="directory that keeps evaluations over restarts; None: they end with the service"
     )
+    corrections_file: Path | None = Field(
+        None, description="file to which POST /corrections appends; None: corrections are refused"
+    )
     log_level: Literal["debug", "info", "warning", "error"] = "info"
     log_descriptions: bool = Field(
         False, description="whether to log descriptions and messages of internal errors, which may quote them"

@@ -1,5 +1,6 @@
 """Atomic writing of files and directories, file checksums, and memory-mapped safetensors files."""
 
+import errno
 import fcntl
 import hashlib
 import json
@@ -67,6 +68,25 @@ def replace_file(path: Path, content: bytes) -> None:
     """Write a file atomically: a reader, or a restart after a crash, sees the old or the new content, never a part."""
     with open_atomic(path) as file:
         file.write(content)
+
+
+def append_line(path: Path, line: bytes) -> None:
+    """Append a line durably; other writers wait, and a part of a line that a crash left is closed by a line end."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with path.open("a+b", buffering=0) as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        size = file.seek(0, os.SEEK_END)
+        file.seek(max(0, size - 1))
+        content = (b"" if file.read(1) in (b"", b"\n") else b"\n") + line + b"\n"
+        try:
+            if file.write(content) != len(content):
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+            os.fsync(file.fileno())
+        except OSError:
+            file.truncate(size)
+            raise
+        if not size:
+            sync(path.parent)
 
 
 @contextmanager

@@ -81,6 +81,11 @@ class Code(Enum):
         "GET /info gives the map's name and its number of parts.",
     )
     JOB_NOT_FOUND = (404, "No such job", "Finished jobs are kept only for a while; start a new one.")
+    CORRECTIONS_OFF = (
+        404,
+        "The service stores no corrections",
+        "Its operator has to set HEREABOUTS_CORRECTIONS_FILE and serve a map with latitude and longitude.",
+    )
     METHOD_NOT_ALLOWED = (405, "The path does not support this method", "Use a method of the Allow header.")
     NOT_ACCEPTABLE = (406, "The format is not available", "Accept application/json or application/geo+json.")
     NO_GEOREFERENCE = (406, "The map has no latitude and longitude", "Accept application/json.")

@@ -35,7 +35,7 @@ from models.language.mentions.name_table import NameTable
 from models.language.mentions.reader import is_meeting, listener_wind
 from models.language.parsed_hint import RELATIONS, ParsedHint
 from models.language.reader import COLOURS
-from models.language.sentences import without_capitals, without_repetition
+from models.language.sentences import without_capitals, without_repetition, without_speakers
 from models.paper.levels import Levels
 from models.posterior.area_filter import AreaFilter
 from models.posterior.binding import Binding
@@ -107,7 +107,7 @@ class PosteriorLocalizer:
     def find(self, queries: Sequence[Query]) -> list[LocalizerResult]:
         """Implement CellLocalizer."""
         start = time.perf_counter()
-        texts = [without_capitals(without_repetition(query.description)) for query in queries]
+        texts = [without_capitals(without_repetition(without_speakers(query.description))) for query in queries]
         texts = texts if self.places is None else [self.places.without_city(text) for text in texts]
         queries = [replace(query, description=text) for query, text in zip(queries, texts, strict=True)]
         parsed = self.chunk_reader.parse([query.description for query in queries])

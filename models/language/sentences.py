@@ -1,6 +1,7 @@
 """Split descriptions into sentences, and into texts short enough for the reader."""
 
 import re
+from collections import Counter
 from collections.abc import Sequence
 
 from models.errors import DescriptionError
@@ -14,6 +15,39 @@ MIN_REPEATED_WORDS = 3  # "bank bank" is not said twice
 _HAS_WORD = re.compile(r"\w")
 _SEMICOLON = re.compile(r";(?=\s|$)")
 _SENTENCE_ENDS = (".", "!", "?", ";", ":")
+# Transcripts: "Caller: ...", "00:12 A: ...", "[00:01:02] Anna: ...", a line "Speaker 1  0:12", SRT and WebVTT.
+_CLOCK = r"[\[(]?(?:\d{1,2}:)?\d{1,2}:\d{2}(?:[.,]\d{1,3})?[\])]?"
+_NAME = r"[^\W_][\w.'’-]*(?: [\w.'’-]+){0,2}"  # noqa: RUF001  # the apostrophe of phones too
+_TIME_STAMP = re.compile(rf"^(?:\d+[ \t]*\r?\n)?[ \t]*{_CLOCK}(?:[ \t]*-->.*$|[ \t]+(?:[-–—][ \t]+)?)", re.M)  # noqa: RUF001
+_SPEAKER = re.compile(rf"(?:^[ \t]*|(?<=[.!?] ))\**(?P<name>{_NAME})(?:[ \t]*{_CLOCK}:?|:)\**(?=\s|$)", re.M)
+_ROLE = re.compile(
+    r"(?:(?:emergency |9-?1-?1 |112 )?(?:caller|dispatcher|operator|agent|speaker|call[- ]?taker|customer|driver)"
+    r"|soittaja|päivystäjä|hätäkeskus|asiakas|kuljettaja|inringare|larmoperatör|operatör|kund|förare"
+    r"|anrufer(?:in)?|disponent(?:in)?|leitstelle|kund(?:e|in)|fahrer(?:in)?|appelante?|opérat(?:eur|rice)|client"
+    r"|régulat(?:eur|rice)|chauffeur|llamante|operadora?|cliente|conductora?)(?: ?\d+)?|(?-i:[A-Z])\d?",
+    re.I,
+)
+_MIN_TURNS = 2  # of a person, or time stamps of a text; fewer may be a form ("Address: ...")
+
+
+def without_speakers(description: str) -> str:
+    """Return a transcript with blanks in place of time stamps and names of speakers; any other text as it is.
+
+    A name before a colon is a speaker's if it is a role ("Caller"), or takes turns with another or after time stamps.
+    """
+    text, stamps = _TIME_STAMP.subn(_blank, description)
+    turns = Counter(match["name"] for match in _SPEAKER.finditer(text))
+    people = {name for name, count in turns.items() if count >= _MIN_TURNS}
+
+    def blank_speaker(match: re.Match[str]) -> str:
+        takes_turns = match["name"] in people and (len(people) > 1 or stamps >= _MIN_TURNS)
+        return _blank(match) if takes_turns or _ROLE.fullmatch(match["name"]) else match[0]
+
+    return _SPEAKER.sub(blank_speaker, text)
+
+
+def _blank(match: re.Match[str]) -> str:
+    return re.sub(r"[^\r\n]", " ", match[0])
 
 
 def split_hints(description: str) -> tuple[str, ...]:
@@ -22,7 +56,7 @@ def split_hints(description: str) -> tuple[str, ...]:
     Raises:
         DescriptionError: it has no letter or digit besides list numbers.
     """
-    sentences = (part.strip(" \t;,") for part in _BREAK.split(_BULLET.sub("", description)))
+    sentences = (part.strip(" \t;,") for part in _BREAK.split(_BULLET.sub("", without_speakers(description))))
     hints = tuple(sentence for sentence in sentences if _HAS_WORD.search(sentence))
     if not hints:
         raise DescriptionError(
@@ -68,7 +102,7 @@ def locate_spans(description: str, text: str, spans: Sequence[tuple[int, int]]) 
 
 def split_for_reader(description: str, longest: int) -> list[str]:
     """Return a description as texts for the reader: lines become sentences, long texts are cut between them."""
-    lines = (line.strip(" \t;,") for line in _BULLET.sub("", description).splitlines())
+    lines = (line.strip(" \t;,") for line in _BULLET.sub("", without_speakers(description)).splitlines())
     ended = (line if line.endswith(_SENTENCE_ENDS) else line + "." for line in lines if _HAS_WORD.search(line))
     whole = _SEMICOLON.sub(".", " ".join(ended))
     if len(whole) <= longest:

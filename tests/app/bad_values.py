@@ -16,7 +16,7 @@ NO_TEXT = [5, True, 1.5, [MARK], {MARK: MARK}]
 NO_NAME = [*NAMES, *NO_TEXT, None]
 TEXTS = [
     *("", " \n\t ", "?!.", "\u200b", f"{MARK}\0", f"{MARK}\x07", f"{MARK}\x1b[31m", f"{MARK}\x85", f"{MARK}\ud800"),
-    *(f"\udfff{MARK}", MARK * 500, f"{MARK}. " * 33, f"{SCRIPT}. " * 33),
+    *(f"\udfff{MARK}", MARK * 500, f"{MARK}. " * 201, f"{SCRIPT}. " * 201),
 ]
 NO_NUMBER = [True, False, "5", MARK, [1], {"a": 1}, "NaN", "0x10"]
 NO_INTEGER = [*NO_NUMBER, None, 0, -1, 5.0, 1.5, int(DIGITS), -int(DIGITS), HUGE, 1e300]
@@ -37,6 +37,7 @@ ODD = f"{MARK}!"  # as the name of a field; one of plain letters may be said aga
 BASES = {  # what else stands in a bad body
     "POST /localize": {"description": f"a tree {MARK}"},
     "POST /describe": {"position": [FRACTION, 0]},
+    "POST /corrections": {"request": {"description": f"a tree {MARK}"}, "position": [FRACTION, 0]},
     "POST /evaluate": {"queries": [{"description": f"a tree {MARK}", "position": [FRACTION, 0]}]},
 }
 WITHIN = [
@@ -89,6 +90,12 @@ FIELDS: Table = {  # in place of what a field of BASES has, or beside it
         "crs": NO_CRS[::3],
         "deadline_ms": NO_INTEGER[2::3],
         "index": NO_NAME[2::6],
+    },
+    "POST /corrections": {
+        "request": [None, MARK, {}, [], {"description": "?"}, {"description": MARK, ODD: 1}],
+        "position": [*NO_POINT[1::3], [0, 1e7]],
+        "crs": NO_CRS[2::3],
+        "place_rank": [*(value for value in NO_INTEGER[::2] if value is not None), 6],
     },
     "POST /evaluate": {
         "queries": [

@@ -5,6 +5,7 @@ GOOD = {  # by method and path of the OpenAPI document: what httpx sends
     "POST /localize": {"json": {"description": "a tree"}},
     "POST /localize/batch": {"json": {"items": [{"description": "a tree"}]}},
     "POST /describe": {"json": {"position": [0, 0]}},
+    "POST /corrections": {"json": {"request": {"description": "a tree"}, "position": [0, 0]}},
     "POST /evaluate": {"json": {"queries": [{"description": "a tree", "position": [0, 0]}]}},
     "GET /evaluate/{job}": {},
     "DELETE /evaluate/{job}": {},

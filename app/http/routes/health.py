@@ -50,4 +50,5 @@ async def info(indexes: AllIndexes, settings: SettingsNow) -> InfoResponse:
         index=index,
         indexes=indexes.names(),
         data_sets=[path.name for path in list_data_sets(settings.data_dir)],
+        corrections=settings.corrections_file is not None and index is not None and index.crs.origin is not None,
     )

@@ -21,7 +21,7 @@ from app.http.middleware import descriptions_of, reply_languages_of
 from app.http.openapi import geojson_content, problems
 from app.http.protocol import LocalizerLike
 from app.http.queue import QUERY_ERRORS, InferenceQueue, ServedAnswer
-from app.http.schemas.requests import DescribeRequest, LocalizeRequest
+from app.http.schemas.requests import CorrectionRequest, DescribeRequest, LocalizeRequest
 from app.http.schemas.responses import LocalizeResponse
 from app.http.schemas.ros import to_ros_pose
 
@@ -83,13 +83,13 @@ async def localize_for(
     return response
 
 
-def check_positions(body: LocalizeRequest | DescribeRequest, localizer: LocalizerLike) -> None:
+def check_positions(body: LocalizeRequest | DescribeRequest | CorrectionRequest, localizer: LocalizerLike) -> None:
     """Raise 422 for degrees that cannot be projected, that are swapped, or that are sent as metres."""
     frame = localizer.frame
     if body.crs == "wgs84" and not frame.is_georeferenced:
         raise Problem.for_field("crs", "this map has no georeference; send metres with crs map")
     for field, (x, y) in body.points() if frame.is_georeferenced else ():
-        is_right, is_swapped = _is_on_map(localizer, y, x), _is_on_map(localizer, x, y)
+        is_right, is_swapped = is_on_map(localizer, y, x), is_on_map(localizer, x, y)
         if body.crs == "map" and (is_right or is_swapped):
             raise Problem.for_field(field, "looks like degrees; send crs wgs84, or metres of the map")
         if body.crs == "wgs84" and is_swapped and not is_right:
@@ -100,7 +100,7 @@ def check_positions(body: LocalizeRequest | DescribeRequest, localizer: Localize
             raise Problem.for_field(field, "is too far from the map; send [longitude, latitude] near it")
 
 
-def _is_on_map(localizer: LocalizerLike, lat: float, lon: float) -> bool:
+def is_on_map(localizer: LocalizerLike, lat: float, lon: float) -> bool:
     """Return whether degrees lie in the box round the map's cells."""
     if not (abs(lat) <= 90 and abs(lon) <= 180):
         return False

@@ -21,6 +21,8 @@ from app.limits import (
     MAX_DESCRIPTION_CHARACTERS,
     MAX_EVALUATE_QUERIES,
     MAX_HINTS,
+    MAX_PLACES,
+    MAX_SENTENCES,
     MAX_TOP_K,
 )
 from index.answering.query import (
@@ -40,6 +42,7 @@ EXAMPLE: JsonValue = {"description": "I am north of a gray building. A black pol
 DESCRIPTION_OR_HINTS = one_of("description", "string", "hints", "array")
 QUERIES_OR_DATA = one_of("queries", "array", "data", "string")
 DESCRIBE_EXAMPLE: JsonValue = {"position": [105.0, -35.0]}
+CORRECTION_EXAMPLE: JsonValue = {"request": EXAMPLE, "position": [105.0, -35.0], "place_rank": 2}
 EVALUATE_EXAMPLE: JsonValue = {
     "queries": [
         {"description": "I am north of a gray building. A black pole is to my west.", "position": [105.0, -35.0]},
@@ -68,8 +71,8 @@ def check_sentences(description: str) -> str:
         count = len(split_hints(description))
     except DescriptionError as error:
         raise field_error(str(error)) from None
-    if count > MAX_HINTS:
-        raise field_error(f"has {count} sentences, but at most {MAX_HINTS} are allowed; shorten it")
+    if count > MAX_SENTENCES:
+        raise field_error(f"has {count} sentences, but at most {MAX_SENTENCES} are allowed; shorten it")
     return description
 
 
@@ -205,6 +208,28 @@ class DescribeRequest(Body):
 
     def points(self) -> list[tuple[str, Point]]:
         """Return the (x, y) or (lon, lat) of the request with the name of its field."""
+        return [("position", self.position)]
+
+
+class CorrectionRequest(Body):
+    """A request to POST /localize and the true position of its speaker."""
+
+    model_config = ConfigDict(json_schema_extra={"examples": [CORRECTION_EXAMPLE]})
+
+    request: LocalizeRequest
+    position: Point = Field(description="[x, y] in metres, or [lon, lat] with crs wgs84")
+    crs: Crs = Field("map", description="the reference system of position")
+    place_rank: Annotated[int, Strict(), Field(ge=1, le=MAX_PLACES)] | None = Field(
+        None, description="which of the answer's places is right, from 1; null if none is"
+    )
+
+    @model_validator(mode="after")
+    def _is_on_earth(self) -> Self:
+        check_degrees(self.crs, self.points())
+        return self
+
+    def points(self) -> list[tuple[str, Point]]:
+        """Return the (x, y) or (lon, lat) of the correction with the name of its field."""
         return [("position", self.position)]
 
 

@@ -282,3 +282,4 @@ class InfoResponse(_Out):
     index: IndexInfo | None = Field(description="the default index; null until it is loaded")
     indexes: list[str] = Field(description="values of `index` in requests")
     data_sets: list[str] = Field(description="values of `data` in POST /evaluate")
+    corrections: bool = Field(description="whether POST /corrections stores corrections of the default index")

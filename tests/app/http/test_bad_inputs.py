@@ -27,7 +27,7 @@ MACHINERY = re.compile(r"Traceback|\.py\b|pydantic|/(home|root|tmp|usr|var|work|
 ADVICE = re.compile(
     r"\b(must|should|send|gives?|use|choose|describe|say|try|accept|leave|start|lists|at most \d+)\b", re.I
 )
-FLEETING = ("request_id", "timings_ms")
+FLEETING = ("request_id", "timings_ms", "time")
 NEGOTIATED = ("POST /localize", "GET /cells", "GET /cells/{cell_id}")
 CASES = {  # of what is the same for every operation with a body: all for the first, some for each of the others
     operation: slice(n % 6, None, 6 if n else 1) for n, operation in enumerate(WITH_BODY)
@@ -128,13 +128,14 @@ def fake(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def api(fake, until, versions_dir):
+def api(fake, until, versions_dir, tmp_path_factory):
     """A client, with the key, of a service whose evaluations are not run."""
 
     async def submit(_jobs, _evaluation):
         return EvaluationJob(Path("nowhere"), "the-job")
 
-    settings = Settings(index_dir=versions_dir, read_key=KEY)
+    file = tmp_path_factory.mktemp("corrections") / "corrections.jsonl"
+    settings = Settings(index_dir=versions_dir, read_key=KEY, corrections_file=file)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(runner.EvaluationJobs, "submit", submit)
         patch.setattr(limits, "MAX_EVALUATE_BODY_BYTES", MOST_BYTES)

@@ -89,6 +89,7 @@ def test_info_shows_limits_and_index(api):
         "max_deadline_ms": 60_000,
     }
     assert body["data_sets"] == []
+    assert body["corrections"] is False
     assert body["indexes"] == ["default"]
     assert body["index"]["num_cells"] == 2
     assert body["index"]["dim"] == 8

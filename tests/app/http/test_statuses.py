@@ -14,6 +14,7 @@ from service_states import Services, raises
 
 from app import limits, main
 from app.http import bodies, queue
+from app.http.routes import corrections
 from app.jobs import store
 from app.jobs.runner import EvaluationJobs
 from app.main import create_app
@@ -25,11 +26,12 @@ from models.errors import StoreUnavailable
 READ = "read-key-1"
 GEO, PICTURE = {"Accept": "application/geo+json"}, {"Accept": "image/png"}
 GEOCODER = ("GET /search", "GET /reverse", "GET /lookup", "GET /status")
-QUEUED = ("POST /localize", "POST /localize/batch", "POST /describe", "POST /evaluate", *GEOCODER)
+CORRECTIONS = "POST /corrections"
+QUEUED = ("POST /localize", "POST /localize/batch", "POST /describe", "POST /evaluate", *GEOCODER, CORRECTIONS)
 DRAWN = ("GET /cells", "GET /cells/{cell_id}")
 CACHED = (*DRAWN, "GET /maps/{name}/points")
 OF_MAP = (*CACHED, "GET /maps/{name}")
-OF_ONE_INDEX = (*(operation for operation in QUEUED if operation != "POST /localize/batch"), *OF_MAP)
+OF_ONE_INDEX = (*(operation for operation in QUEUED if operation not in ("POST /localize/batch", CORRECTIONS)), *OF_MAP)
 OF_JOB = ("GET /evaluate/{job}", "DELETE /evaluate/{job}", "GET /evaluate/{job}/events")
 OPEN = ("GET /healthz", "GET /readyz", "GET /metrics", "GET /info")
 CLOSED = tuple(operation for operation in GOOD if operation not in OPEN)
@@ -71,9 +73,14 @@ def of_index(api, operation, name):
 
 
 @provokes(202, None, "POST /evaluate")
-@provokes(200, None, *(op for op in GOOD if op not in ("POST /evaluate", *OF_JOB)))
+@provokes(200, None, *(op for op in GOOD if op not in ("POST /evaluate", CORRECTIONS, *OF_JOB)))
 def good_request(services, operation, patch):
     return ask(services(), operation)
+
+
+@provokes(201, None, CORRECTIONS)
+def correction(services, operation, patch):
+    return ask(services("correcting", corrections_file=services.root / "corrections.jsonl"), operation)
 
 
 @provokes(200, None, *OF_JOB)
@@ -102,7 +109,7 @@ def another_key(services, operation, patch):
     return ask(services(read_key=READ), operation, headers={"X-API-Key": "another-key"})
 
 
-@provokes(403, "key_not_set", "POST /evaluate", "DELETE /evaluate/{job}")
+@provokes(403, "key_not_set", "POST /evaluate", CORRECTIONS, "DELETE /evaluate/{job}")
 def forwarded_request(services, operation, patch):
     return ask(services(), operation, headers={"X-Forwarded-For": "192.0.2.1"})
 
@@ -110,6 +117,16 @@ def forwarded_request(services, operation, patch):
 @provokes(404, "index_not_found", *OF_ONE_INDEX)
 def another_index(services, operation, patch):
     return of_index(services(), operation, "paris")
+
+
+@provokes(404, "index_not_found", CORRECTIONS)
+def another_index_in_a_request(services, operation, patch):
+    return ask(services(), operation, json={"request": {"description": "a", "index": "paris"}, "position": [0, 0]})
+
+
+@provokes(404, "corrections_off", CORRECTIONS)
+def service_without_a_file(services, operation, patch):
+    return ask(services(), operation)
 
 
 @provokes(404, "cell_not_found", "GET /cells/{cell_id}")
@@ -156,6 +173,11 @@ def broken_aliases(services, operation, patch):
 def full_disk_of_jobs(services, operation, patch):
     patch.setattr(store.JobStore, "add", raises(OSError(errno.ENOSPC, "full")))
     return ask(services(), operation)
+
+
+@provokes(409, "not_writable", CORRECTIONS)
+def file_that_is_a_directory(services, operation, patch):
+    return ask(services("broken", corrections_file=services.root), operation)
 
 
 @provokes(413, "body_too_large", *WITH_BODY)
@@ -209,6 +231,12 @@ def fault_of_the_localizer(services, operation, patch):
 def fault_of_the_store(services, operation, patch):
     patch.setattr(store.JobStore, "add", raises(RuntimeError("a fault")))
     return ask(services(), operation)
+
+
+@provokes(500, "internal_error", CORRECTIONS)
+def fault_of_the_file(services, operation, patch):
+    patch.setattr(corrections, "append_line", raises(RuntimeError("a fault")))
+    return correction(services, operation, patch)
 
 
 @provokes(503, "not_ready", *QUEUED, *OF_MAP, "GET /readyz")

@@ -75,8 +75,13 @@ def served(settings, warm):
 
 
 @pytest.fixture(scope="session")
-def service(town_index, warm):
-    with served(Settings(index_dir=town_index), warm) as url:
+def corrections_file(tmp_path_factory):
+    return tmp_path_factory.mktemp("corrections") / "corrections.jsonl"
+
+
+@pytest.fixture(scope="session")
+def service(town_index, warm, corrections_file):
+    with served(Settings(index_dir=town_index, corrections_file=corrections_file), warm) as url:
         yield url
 
 
@@ -118,7 +123,8 @@ class Visitor:
         if there.scheme not in ("data", "blob") and there.netloc != here.netloc:
             self.wrong.append(f"left the origin: {request.url}")
         if request.method == "POST":
-            self.posted.append((there.path, request.post_data_json))
+            is_json = request.headers.get("content-type") == "application/json"
+            self.posted.append((there.path, request.post_data_json if is_json else request.post_data))
 
     def open(self, fragment=""):
         """Open the page, and wait for its map and its chips."""

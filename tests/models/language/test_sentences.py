@@ -5,7 +5,14 @@ import pytest
 from models.citymap.templates import ON_TOP_TEMPLATES, TEMPLATES, parse_hint, render_hint
 from models.citymap.types import DIRECTIONS, Hint
 from models.errors import DescriptionError
-from models.language.sentences import locate_spans, split_for_reader, split_hints, without_capitals, without_repetition
+from models.language.sentences import (
+    locate_spans,
+    split_for_reader,
+    split_hints,
+    without_capitals,
+    without_repetition,
+    without_speakers,
+)
 
 
 @pytest.mark.parametrize(
@@ -119,3 +126,43 @@ def test_a_passage_without_full_stops_that_is_repeated_is_read_once() -> None:
 def test_a_text_in_capitals_is_read_like_one_without() -> None:
     assert without_capitals("BY THE BANK!") == "by the bank!"
     assert without_capitals("By the BANK") == "By the BANK"
+
+
+@pytest.mark.parametrize(
+    ("text", "lines"),
+    [
+        ("Dispatcher: Where are you?\nCaller: On Bulevardi, at 12:30", ["Where are you?", "On Bulevardi, at 12:30"]),
+        ("CALLER: HELP\r\n911 Operator: WHERE?", ["HELP", "WHERE?"]),
+        ("Soittaja: Täällä!\nPäivystäjä: Missä?", ["Täällä!", "Missä?"]),
+        ("Caller: I am here. Dispatcher: Where?", ["I am here.             Where?"]),
+        ("**Caller:** here", ["here"]),
+        ("00:12 A: a church\n00:15 B: where?", ["a church", "where?"]),
+        ("Speaker 1  0:12\nA church.\n\nSpeaker 2 (1:02:03)\nOK", ["A church.", "OK"]),
+        ("Anna: by a bank\nBo K.: which?\nAnna: red\nBo K.: ok", ["by a bank", "which?", "red", "ok"]),
+        ("[00:12] Anna: by a bank\n[00:15] Anna: red", ["by a bank", "red"]),
+        ("1\n00:00:01,000 --> 00:00:04,000\nhere\n\n2\n00:00:05,000 --> 00:00:06,000\na bank", ["here", "a bank"]),
+    ],
+)
+def test_speakers_and_time_stamps_of_transcripts_become_blanks(text, lines) -> None:
+    cleaned = without_speakers(text)
+    assert len(cleaned) == len(text)
+    assert [line.strip() for line in cleaned.splitlines() if line.strip()] == lines
+    assert split_hints(text) == tuple(hint for line in lines for hint in re.split(r"(?<=[.])\s+", line))
+    assert " ".join(split_for_reader(text, 800)).replace(".", "").split() == " ".join(lines).replace(".", "").split()
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Address: Bulevardi 5",
+        "Address: Bulevardi 5\nLandmark: a church\nAddress: on the corner",
+        "Left: a church\nRight: a park",
+        "What I see: a lamp. On my left: a wall",
+        "Bulevardi 5: a red door",
+        "Bulevardi: smoke\nKamppi: fire",
+        "It is 12:30: a church is to my left",
+        "see https://example.org/a: b",
+    ],
+)
+def test_texts_with_colons_stay(text) -> None:
+    assert without_speakers(text) == text

@@ -15,6 +15,10 @@ export interface Acts {
   forget(question: string): void;
   ask(): void;
   unlock(key: string): void;
+  /** Stores where it is: at the pin, or else at the chosen place. */
+  correct(): void;
+  movePin(): void;
+  saveAnswer(): void;
 }
 
 export interface Reply {
@@ -26,8 +30,17 @@ export interface Reply {
 export interface Given {
   replies: Reply[];
   isInside: boolean; // an area alone is looked at
+  correction: Correction | null; // null if the service stores none
 }
 
+export interface Correction {
+  hasPin: boolean;
+  isPinning: boolean;
+  isDone: boolean;
+  message: string;
+}
+
+const MOST_MISSED = 3; // sentences that are listed; more wait until they are wanted
 const FITS = 0.5; // as the service has it: from this probability on something explains what was said
 const WEAK = 0.2;
 const questions = new Map<string, NonNullable<Answer["question"]>>(); // that were shown, by id
@@ -47,7 +60,8 @@ export function showAnswer(into: Element, said: string, answer: Answer, places: 
     told(said, answer, acts),
     answer.evidence.length > 0 && evidenceList(said, answer, acts),
     asked.replies.length > 0 && repliesList(asked.replies, acts),
-    others(answer, places, chosen, acts),
+    others(answer, places, chosen, asked.correction !== null, acts),
+    actions(places, chosen, asked.correction, acts),
     ...answer.warnings.map((warning) => h("p", { className: "warning" }, sentence(warning))),
   );
 }
@@ -214,7 +228,9 @@ function fitText({ text, fit }: Evidence): string {
 function missed(said: string, answer: Answer): Element[] {
   const spans = answer.evidence.flatMap((evidence) => (evidence.span ? [evidence.span] : []));
   const empty = sentences(said).filter(({ start, end }) => !spans.some(([from, to]) => from < end && to > start));
-  return empty.map(({ text }) => h("li", { className: "none" }, h("span", { className: "sign", "aria-hidden": "true" }, "?"), h("span", {}, h("b", {}, `“${text}”`), ` ${t("notUnderstood")}`)));
+  const rows = empty.map(({ text }) => h("li", { className: "none" }, h("span", { className: "sign", "aria-hidden": "true" }, "?"), h("span", {}, h("b", {}, `“${text}”`), ` ${t("notUnderstood")}`)));
+  if (rows.length <= MOST_MISSED) return rows;
+  return [h("li", {}, h("details", {}, h("summary", {}, t("manyNotUnderstood", { count: rows.length })), h("ul", { className: "evidence" }, ...rows)))];
 }
 
 /** A reply in words: those of the question and the choice if they were shown, else those in the address. */
@@ -230,7 +246,7 @@ function repliesList(replies: Reply[], acts: Acts): Element {
   return h("p", { className: "row small" }, t("youAnswered"), ...chips);
 }
 
-function others(answer: Answer, places: Place[], chosen: number, acts: Acts): Element | null {
+function others(answer: Answer, places: Place[], chosen: number, isCorrected: boolean, acts: Acts): Element | null {
   if (places.length < 2) return null;
   const rows = places.map((place, n) =>
     h(
@@ -250,7 +266,25 @@ function others(answer: Answer, places: Place[], chosen: number, acts: Acts): El
   const rest = elsewhere > 0.005 ? h("li", { className: "small" }, t("elsewhere", { share: percent(elsewhere) })) : null;
   const list = h("ol", { className: "places" }, ...rows, rest);
   const amount = places.length === 2 ? t("otherPlace") : sentence(t("otherPlaces", { count: count(places.length - 1) }));
-  return h("details", { className: "others", open: answer.status === "ambiguous" || chosen > 0 }, h("summary", {}, amount), list);
+  return h("details", { className: "others", open: answer.status === "ambiguous" || chosen > 0 || isCorrected }, h("summary", {}, amount), list);
+}
+
+/** What an operator does with an answer. */
+function actions(places: Place[], chosen: number, correction: Correction | null, acts: Acts): Element {
+  const here = correction?.hasPin ? t("itIsAtPin") : places.length > 1 ? t("itIsAt", { letter: places[chosen].letter }) : t("itIsHere");
+  const canCorrect = correction && (correction.hasPin || places.length > 0);
+  return h(
+    "div",
+    { className: "actions" },
+    h(
+      "div",
+      { className: "row" },
+      canCorrect && h("button", { type: "button", id: "correct", disabled: correction.isDone, onclick: () => acts.correct() }, here),
+      correction && h("button", { type: "button", id: "move-pin", "aria-pressed": correction.isPinning, onclick: () => acts.movePin() }, t("movePin")),
+      h("button", { type: "button", id: "save", onclick: () => acts.saveAnswer() }, t("saveAnswer")),
+    ),
+    correction && h("p", { className: "small", role: "status" }, correction.isPinning ? t("hintCorrect") : correction.message),
+  );
 }
 
 function placeName(place: Place): Element {

@@ -10,6 +10,7 @@ export type Evidence = Schemas["Evidence"];
 export type Info = Schemas["InfoResponse"];
 export type Asked = Schemas["LocalizeRequest"];
 export type Described = Schemas["DescribeResponse"];
+export type Correction = Schemas["CorrectionRequest"];
 export type JobState = Schemas["JobState"];
 export type Measured = Schemas["EvaluateRequest"];
 
@@ -26,6 +27,11 @@ export class Problem extends Error {
   ) {
     super(message);
   }
+}
+
+/** What went wrong, in a sentence. */
+export function describeError(error: unknown): string {
+  return error instanceof Problem ? `${error.title}. ${error.message}` : String((error as Error)?.message ?? error);
 }
 
 export function setKey(key: string): void {
@@ -46,6 +52,16 @@ export async function localize(asked: Asked, signal: AbortSignal): Promise<Answe
 
 export async function describe(position: [number, number], signal?: AbortSignal): Promise<Described> {
   return (await send("describe", { position }, signal)).json();
+}
+
+export async function correct(correction: Correction): Promise<void> {
+  await send("corrections", correction);
+}
+
+/** Sends a CSV table; the answer is the table with positions. */
+export async function localizeTable(table: string, column: string, signal: AbortSignal): Promise<string> {
+  const headers = { "Content-Type": "text/csv", Accept: "text/csv" };
+  return (await call(`localize/batch?text=${encodeURIComponent(column)}`, { method: "POST", body: table, headers, signal })).text();
 }
 
 /** Starts an evaluation and follows it; the last state is the result. */

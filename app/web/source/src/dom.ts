@@ -37,6 +37,13 @@ function isolate(name: string): Element {
   return element;
 }
 
+/** Gives a text to the browser to save. */
+export function save(name: string, type: string, text: string): void {
+  const link = h("a", { href: URL.createObjectURL(new Blob([text], { type })), download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+}
+
 export function byId<T extends HTMLElement>(id: string): T {
   return document.getElementById(id) as T;
 }

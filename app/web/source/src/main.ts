@@ -2,7 +2,7 @@
 
 import { showAnswer, showProblem, showWaiting, type Acts } from "./answer";
 import * as api from "./api";
-import { byId } from "./dom";
+import { byId, save } from "./dom";
 import { examples } from "./examples";
 import { store, t, translatePage } from "./language";
 import { Measure } from "./measure";
@@ -12,6 +12,7 @@ import { boxOf, boxRound, placesOf } from "./places";
 import { pointer, type Hand } from "./pointer";
 import { readScenery, type Scenery, type Shape } from "./scenery";
 import { read, write, type State } from "./state";
+import { Table } from "./table";
 import type { Tool } from "./tools";
 import { View } from "./view";
 import { legend } from "./legend";
@@ -21,11 +22,12 @@ const BESIDE = 25; // metres of map around what is visited
 
 class Page implements Acts {
   private state: State = read(location.hash);
-  private readonly shown: Shown = { said: "", answer: null, places: [], chosen: 0, mention: null, pin: null, measured: [] };
+  private readonly shown: Shown = { said: "", answer: null, places: [], chosen: 0, mention: null, pin: null, right: null, asked: null, measured: [] };
   private readonly objects = new Map<string, Shape>();
   private readonly view = new View(byId("map"), pointer(this.hand()));
   private readonly measure = new Measure((measured) => this.redraw({ measured }), (report) => report.split === "index" && report.data === this.info?.index?.provenance.map);
-  private readonly panel = new Panel(this.wishes(), this.measure.element);
+  private readonly table = new Table(() => this.info?.limits);
+  private readonly panel = new Panel(this.wishes(), this.table.element, this.measure.element);
   private info: api.Info | null = null;
   private sceneries: Scenery[] = [];
   private parts = 1;
@@ -36,6 +38,7 @@ class Page implements Acts {
   private described = ""; // the words for the pin
   private stays = this.state.pose !== null; // a link that says where to look is heeded once
   private kept = 0;
+  private correction = { isDone: false, message: "" };
 
   async start(): Promise<void> {
     this.panel.said.value = sessionStorage.getItem(DRAFT) ?? this.state.said;
@@ -64,13 +67,14 @@ class Page implements Acts {
     const asking = (this.asking = new AbortController());
     const { said, prior, within, answers, topK } = this.state;
     this.redraw({ said, answer: null, places: [], chosen: 0, mention: null });
+    this.pin(null, false);
     if (!said.trim()) return this.clear();
     showWaiting(this.panel.answer, said);
     this.panel.wait(true);
     try {
-      const asked = { description: said, top_k: topK, heat_map: true, ...(prior && { prior }), ...(within && { within }), ...(answers.length && { answers }) };
-      const answer = await api.localize(asked as api.Asked, asking.signal);
-      this.redraw({ answer, places: placesOf(answer) });
+      const asked = { description: said, top_k: topK, heat_map: true, ...(prior && { prior }), ...(within && { within }), ...(answers.length && { answers }) } as api.Asked;
+      const answer = await api.localize(asked, asking.signal);
+      this.redraw({ asked, answer, places: placesOf(answer) });
       this.showAnswer();
       this.panel.reveal();
       const box = boxOf(answer, this.shown.places);
@@ -85,7 +89,7 @@ class Page implements Acts {
 
   choose(place: number): void {
     this.redraw({ chosen: place });
-    this.showAnswer();
+    this.pin(null, true);
     const [x, y] = this.shown.places[place].at;
     this.view.camera.fly({ x, y, distance: Math.min(this.view.camera.pose.distance, 350) });
   }
@@ -111,6 +115,40 @@ class Page implements Acts {
   forget(question: string): void {
     this.change({ answers: this.state.answers.filter((answer) => answer.question !== question) });
     void this.ask();
+  }
+
+  async correct(): Promise<void> {
+    const { asked, places, chosen, right } = this.shown;
+    this.take(null);
+    const correction = (this.correction = { isDone: true, message: "" });
+    this.showAnswer();
+    try {
+      await api.correct({ request: asked!, position: right ?? places[chosen].at, crs: "map", place_rank: right ? null : chosen + 1 });
+      correction.message = t("correctionStored");
+    } catch (error) {
+      Object.assign(correction, { isDone: false, message: api.describeError(error) });
+    }
+    if (this.correction === correction) this.showAnswer();
+  }
+
+  /** The pin of a correction begins at the chosen place, or in the middle of the map. */
+  movePin(): void {
+    const { right, places, chosen } = this.shown;
+    this.take(this.tool === "correct" ? null : "correct");
+    this.pin(right ?? places[chosen]?.at ?? this.view.camera.ground(...this.view.camera.middle), false);
+    this.showAnswer();
+  }
+
+  saveAnswer(): void {
+    const { asked, answer } = this.shown;
+    if (answer) save(`hereabouts-${answer.request_id}.json`, "application/json", JSON.stringify({ record_version: 1, request: asked, answer }, null, 1));
+  }
+
+  private pin(position: [number, number] | null, done: boolean): void {
+    this.redraw({ right: position });
+    if (!position && this.tool === "correct") this.take(null);
+    this.correction = { isDone: false, message: "" };
+    if (done) (this.take(null), this.showAnswer());
   }
 
   async unlock(key: string): Promise<void> {
@@ -187,7 +225,7 @@ class Page implements Acts {
     try {
       await this.loadMap(this.info!.index!.provenance.map, this.sceneries.length);
     } catch (error) {
-      this.panel.tell(problemOf(error));
+      this.panel.tell(api.describeError(error));
     }
     this.panel.offerPoints(this.sceneries.length < this.parts);
   }
@@ -204,10 +242,9 @@ class Page implements Acts {
   private async surprise(): Promise<void> {
     try {
       const [example] = await examples(this.sceneries[0], 1);
-      if (example) this.wishes().ask(example.description);
-      else this.panel.tell(t("noExample"));
+      example ? this.wishes().ask(example.description) : this.panel.tell(t("noExample"));
     } catch (error) {
-      this.panel.tell(problemOf(error));
+      this.panel.tell(api.describeError(error));
     }
   }
 
@@ -222,7 +259,7 @@ class Page implements Acts {
     } catch (error) {
       if (describing.signal.aborted) return;
       this.redraw({ pin: null });
-      this.panel.tell(problemOf(error));
+      this.panel.tell(api.describeError(error));
     }
   }
 
@@ -242,6 +279,7 @@ class Page implements Acts {
         this.take(null);
         void this.describe(position);
       },
+      pin: (position, done) => this.pin(position, done),
       drawn: (area, done) => {
         if (done) {
           this.take(null);
@@ -288,14 +326,15 @@ class Page implements Acts {
   private showAnswer(): void {
     const { answer, places, chosen } = this.shown;
     if (!answer) return;
-    const hadFocus = this.panel.answer.contains(document.activeElement);
-    showAnswer(this.panel.answer, this.shown.said, answer, places, chosen, { replies: this.state.answers, isInside: this.state.within !== null }, this);
+    const correction = this.info?.corrections ? { ...this.correction, hasPin: this.shown.right !== null, isPinning: this.tool === "correct" } : null;
+    const [focused, hadFocus] = [document.activeElement?.id, this.panel.answer.contains(document.activeElement)];
+    showAnswer(this.panel.answer, this.shown.said, answer, places, chosen, { replies: this.state.answers, isInside: this.state.within !== null, correction }, this);
     this.panel.announce();
-    if (hadFocus) (this.panel.answer.querySelector<HTMLElement>('.place[aria-pressed="true"]') ?? this.panel.answer.querySelector("h2"))?.focus();
+    if (hadFocus) (this.panel.answer.querySelector<HTMLElement>(focused ? `#${focused}:enabled` : "none") ?? this.panel.answer.querySelector<HTMLElement>('.place[aria-pressed="true"]') ?? this.panel.answer.querySelector("h2"))?.focus();
   }
 
   private fail(error: unknown): void {
-    const known = error instanceof api.Problem ? error : new api.Problem(t("pageFault"), problemOf(error), "page");
+    const known = error instanceof api.Problem ? error : new api.Problem(t("pageFault"), api.describeError(error), "page");
     this.redraw({ answer: null, places: [], mention: null });
     showProblem(this.panel.answer, known, this.state.answers, this);
   }
@@ -305,10 +344,6 @@ class Page implements Acts {
     const panel = byId("panel").getBoundingClientRect();
     this.view.camera.cover(isSheet() ? { left: 0, bottom: Math.min(innerHeight / 2, innerHeight - panel.top) } : { left: panel.right, bottom: 0 });
   }
-}
-
-function problemOf(error: unknown): string {
-  return error instanceof api.Problem ? `${error.title}. ${error.message}` : String((error as Error)?.message ?? error);
 }
 
 translatePage();

@@ -53,7 +53,7 @@ export class Measure {
       if (running.signal.aborted) {
         if (job) await api.cancel(job).catch(() => null);
         this.say(t("cancelled"));
-      } else this.say(error instanceof api.Problem ? `${error.title}. ${error.message}` : String((error as Error).message));
+      } else this.say(api.describeError(error));
     } finally {
       this.running = null;
       this.start.textContent = t("measure");

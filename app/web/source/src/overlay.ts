@@ -1,6 +1,6 @@
 // What an answer adds to the map: heat, rings, places, what was mentioned, and where to look.
 
-import type { Answer, Evidence } from "./api";
+import type { Answer, Asked, Evidence } from "./api";
 import type { Camera } from "./camera";
 import type { Look } from "./look";
 import type { Measurement } from "./report";
@@ -15,13 +15,17 @@ type Point = [number, number];
 
 const LABEL = '600 12px system-ui, -apple-system, "Segoe UI", sans-serif';
 
+export const PIN_HEIGHT = 26; // pixels from its point to the middle of its head
+
 export interface Shown {
   said: string; // what the answer is to
+  asked: Asked | null;
   answer: Answer | null;
   places: Place[];
   chosen: number; // of places
   mention: number | null; // of evidence, whose object is lit up
   pin: Point | null;
+  right: Point | null; // where an operator says that it is
   measured: Measurement[];
 }
 
@@ -41,9 +45,10 @@ export function paint(pen: Pen, camera: Camera, look: Look, taken: Room[], shown
   } else if (answer?.estimate) {
     dot(pen, camera, look.accent, answer.estimate.position, 8, taken);
   }
-  if (shown.pin) pin(pen, camera, look, shown.pin, taken);
+  if (shown.pin) pin(pen, camera, look, look.name, shown.pin, taken);
+  if (shown.right) pin(pen, camera, look, look.accent, shown.right, taken);
   for (const each of shown.measured) error(pen, camera, look, each);
-  return Boolean(answer || shown.pin || shown.measured.length || state.prior || state.within);
+  return Boolean(answer || shown.pin || shown.right || shown.measured.length || state.prior || state.within);
 }
 
 function colourOf(look: Look, mention: number): string {
@@ -205,18 +210,18 @@ function marker(pen: Pen, camera: Camera, look: Look, place: Place, chosen: bool
   pen.fillText(place.letter, at[0], at[1] + 0.5);
 }
 
-function pin(pen: Pen, camera: Camera, look: Look, place: Point, taken: Room[]): void {
+function pin(pen: Pen, camera: Camera, look: Look, colour: string, place: Point, taken: Room[]): void {
   const at = camera.project(...place);
   if (!at) return;
-  pen.strokeStyle = look.name;
+  pen.strokeStyle = colour;
   pen.lineWidth = 3;
   pen.beginPath();
   pen.moveTo(...at);
   pen.lineTo(at[0], at[1] - 22);
   pen.stroke();
   pen.beginPath();
-  pen.arc(at[0], at[1] - 26, 7, 0, 2 * Math.PI);
-  pen.fillStyle = look.name;
+  pen.arc(at[0], at[1] - PIN_HEIGHT, 7, 0, 2 * Math.PI);
+  pen.fillStyle = colour;
   pen.fill();
   pen.strokeStyle = look.halo;
   pen.lineWidth = 2;

@@ -34,13 +34,15 @@ export class Panel {
   private readonly points = h("button", { type: "button", hidden: true }, t("morePoints"));
   private tool: Tool | null = null;
   private waiting = 0;
+  private mostCharacters = 4000; // until the service says its limit
 
-  constructor(private readonly wishes: Wishes, measure: Element) {
+  constructor(private readonly wishes: Wishes, ...tools: Element[]) {
     const form = byId<HTMLFormElement>("ask");
     form.addEventListener("submit", (event) => {
       event.preventDefault();
-      wishes.ask(this.said.value);
+      if (!this.isTooLong()) wishes.ask(this.said.value);
     });
+    this.said.addEventListener("input", () => this.isTooLong());
     this.said.addEventListener("keydown", (event) => {
       if (event.key !== "Enter" || event.shiftKey || event.isComposing) return;
       event.preventDefault();
@@ -59,7 +61,7 @@ export class Panel {
       h("label", { className: "check" }, this.cells, t("cells")),
       h("div", { className: "row" }, h("label", { for: "many" }, t("candidates")), this.many, this.points),
     );
-    byId("more").append(h("details", { id: "look" }, h("summary", {}, t("whereToLook")), h("div", { className: "row" }, ...this.areas.map(([, button]) => button)), this.where), shown, measure, this.languages());
+    byId("more").append(h("details", { id: "look" }, h("summary", {}, t("whereToLook")), h("div", { className: "row" }, ...this.areas.map(([, button]) => button)), this.where), shown, ...tools, this.languages());
     this.sheet();
   }
 
@@ -78,7 +80,7 @@ export class Panel {
       prior && this.given(t("givenNear", { distance: metres(prior.sigma_m) }), { prior: null }),
       within && this.given("circle" in within ? t("givenCircle", { radius: metres(within.circle.radius_m) }) : t("givenBox", { width: metres(within.bbox[2] - within.bbox[0]), height: metres(within.bbox[3] - within.bbox[1]) }), { within: null }),
     );
-    this.tell(tool ? t(HINTS[tool]) : "");
+    this.tell(tool && tool !== "correct" ? t(HINTS[tool]) : "");
   }
 
   /** What to do now, or what went wrong beside the answer. */
@@ -95,8 +97,17 @@ export class Panel {
 
   /** What the service takes at most. */
   limit(limits: Info["limits"]): void {
-    this.said.maxLength = limits.max_characters;
+    this.mostCharacters = limits.max_characters;
     for (const option of [...this.many.options]) if (Number(option.value) > limits.max_top_k) option.remove();
+  }
+
+  /** Whether the text is longer than the service takes; the page then says by how much. */
+  private isTooLong(): boolean {
+    const over = [...this.said.value].length - this.mostCharacters;
+    const length = byId("length");
+    length.hidden = over <= 0;
+    length.textContent = over > 0 ? t("tooLong", { over, most: this.mostCharacters }) : "";
+    return over > 0;
   }
 
   /** Three ways to begin; the first stands in the box in grey as well. */

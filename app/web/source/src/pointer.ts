@@ -2,8 +2,8 @@
 
 import { fitOf } from "./answer";
 import type { Camera } from "./camera";
-import type { Picked } from "./controls";
-import type { Shown } from "./overlay";
+import type { Drag, Picked } from "./controls";
+import { PIN_HEIGHT, type Shown } from "./overlay";
 import { draw, type Area, type Tool } from "./tools";
 
 const CLOSE = 14; // pixels from the pointer to what it means
@@ -13,6 +13,8 @@ export interface Hand {
   readonly shown: Shown;
   readonly tool: Tool | null;
   describe(position: [number, number]): void;
+  /** Puts the pin of a correction; `done` when it stays there. */
+  pin(position: [number, number], done: boolean): void;
   drawn(area: Area, done: boolean): void;
   choose(place: number): void;
   light(mention: number | null): void;
@@ -21,19 +23,35 @@ export interface Hand {
 export function pointer(hand: Hand): Picked {
   const areaFrom = (px: number, py: number) => {
     const { tool } = hand;
-    return tool && tool !== "describe" ? draw(tool, hand.camera, px, py, (area, done) => hand.drawn(area, done)) : null;
+    return tool && tool !== "describe" && tool !== "correct" ? draw(tool, hand.camera, px, py, (area, done) => hand.drawn(area, done)) : null;
   };
   return {
-    grab: areaFrom,
+    grab: (px, py) => pinDrag(hand, px, py) ?? areaFrom(px, py),
     click(px, py) {
       const at = hand.camera.ground(px, py);
       if (!at) return;
       if (hand.tool === "describe") hand.describe(at);
+      else if (hand.tool === "correct") hand.pin(at, true);
       else if (hand.tool) areaFrom(px, py)?.end();
       else pick(hand, px, py);
     },
     hover: (px, py) => hand.light(mentionAt(hand, px, py)),
     leave: () => hand.light(null),
+  };
+}
+
+/** Drags the pin of a correction by its point or its head. */
+function pinDrag(hand: Hand, px: number, py: number): Drag | null {
+  const { right } = hand.shown;
+  const point = right && hand.camera.project(...right);
+  if (!point || !(isNear(point, px, py) || isNear([point[0], point[1] - PIN_HEIGHT], px, py))) return null;
+  const [dx, dy] = [point[0] - px, point[1] - py];
+  return {
+    move(mx, my) {
+      const to = hand.camera.ground(mx + dx, my + dy);
+      if (to) hand.pin(to, false);
+    },
+    end: () => hand.pin(hand.shown.right!, true),
   };
 }
 

@@ -64,6 +64,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/corrections": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Correct
+         * @description Store the true position of a description, which `hereabouts evaluate --data` reads later.
+         */
+        post: operations["correct_corrections_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/evaluate": {
         parameters: {
             query?: never;
@@ -577,6 +597,86 @@ export interface components {
              * @description the text to show
              */
             text: string;
+        };
+        /**
+         * Correction
+         * @description A line of the file of corrections, which `models.sources.place_texts` reads.
+         */
+        Correction: {
+            /** Text */
+            text: string;
+            /**
+             * Goal
+             * @description the true position, [latitude, longitude]
+             */
+            goal: [
+                number,
+                number
+            ];
+            /**
+             * Start
+             * @description the listener, [latitude, longitude]
+             */
+            start: [
+                number,
+                number
+            ] | null;
+            /** Place Rank */
+            place_rank: number | null;
+            /** Map */
+            map: string;
+            /** Index Version */
+            index_version: string;
+            /**
+             * Time
+             * Format: date-time
+             */
+            time: string;
+            /**
+             * Request
+             * @description the request as it was sent
+             */
+            request: {
+                [key: string]: unknown;
+            };
+        };
+        /**
+         * CorrectionRequest
+         * @description A request to POST /localize and the true position of its speaker.
+         * @example {
+         *       "place_rank": 2,
+         *       "position": [
+         *         105,
+         *         -35
+         *       ],
+         *       "request": {
+         *         "description": "I am north of a gray building. A black pole is to my west.",
+         *         "top_k": 3
+         *       }
+         *     }
+         */
+        CorrectionRequest: {
+            request: components["schemas"]["LocalizeRequest"];
+            /**
+             * Position
+             * @description [x, y] in metres, or [lon, lat] with crs wgs84
+             */
+            position: [
+                number,
+                number
+            ];
+            /**
+             * Crs
+             * @description the reference system of position
+             * @default map
+             * @enum {string}
+             */
+            crs: "map" | "wgs84";
+            /**
+             * Place Rank
+             * @description which of the answer's places is right, from 1; null if none is
+             */
+            place_rank?: number | null;
         };
         /**
          * CrsOut
@@ -1143,6 +1243,11 @@ export interface components {
              * @description values of `data` in POST /evaluate
              */
             data_sets: string[];
+            /**
+             * Corrections
+             * @description whether POST /corrections stores corrections of the default index
+             */
+            corrections: boolean;
         };
         /**
          * JobAccepted
@@ -1909,7 +2014,7 @@ export interface components {
             detail: string;
             /**
              * Code
-             * @description invalid_json (400); key_required (401); key_wrong (401); key_not_set (403); not_found (404); index_not_found (404); cell_not_found (404); map_not_found (404); job_not_found (404); method_not_allowed (405); not_acceptable (406); no_georeference (406); body_too_slow (408); index_broken (409); not_writable (409); body_too_large (413); unsupported_media_type (415); invalid_request (422); queue_full (429); bodies_full (429); jobs_full (429); client_closed_request (499); internal_error (500); not_ready (503); draining (503); store_unavailable (503); load_failed (503); deadline_exceeded (504)
+             * @description invalid_json (400); key_required (401); key_wrong (401); key_not_set (403); not_found (404); index_not_found (404); cell_not_found (404); map_not_found (404); job_not_found (404); corrections_off (404); method_not_allowed (405); not_acceptable (406); no_georeference (406); body_too_slow (408); index_broken (409); not_writable (409); body_too_large (413); unsupported_media_type (415); invalid_request (422); queue_full (429); bodies_full (429); jobs_full (429); client_closed_request (499); internal_error (500); not_ready (503); draining (503); store_unavailable (503); load_failed (503); deadline_exceeded (504)
              */
             code: string;
             /** Request Id */
@@ -2442,6 +2547,129 @@ export interface operations {
             };
             /** @description No answer before the deadline */
             504: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+        };
+    };
+    correct_corrections_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CorrectionRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Correction"];
+                };
+            };
+            /** @description The body is not JSON */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description No key is set, so only local requests may change anything */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description No such index; The service stores no corrections */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The body did not arrive in time */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The service cannot write to its directory */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The body is too large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The body has the wrong type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The request is invalid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description Too many large bodies at once */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description Internal error */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The model is still loading; The service is shutting down; The index or the model could not be loaded */
+            503: {
                 headers: {
                     [name: string]: unknown;
                 };

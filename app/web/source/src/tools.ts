@@ -5,13 +5,14 @@ import type { Drag } from "./controls";
 import type { Key } from "./language";
 import type { State, Within } from "./state";
 
-export type Tool = "describe" | "near" | "circle" | "box";
+export type Tool = "describe" | "correct" | "near" | "circle" | "box";
+type AreaTool = Exclude<Tool, "describe" | "correct">;
 export type Area = { prior: State["prior"] } | { within: Within };
 
 const USUAL = { near: 50, circle: 150, box: 150 }; // metres, where nothing was drawn
 const LEAST = 3; // metres; less was a click
 
-export const HINTS: Record<Tool, Key> = {
+export const HINTS: Record<Exclude<Tool, "correct">, Key> = {
   describe: "hintDescribe",
   near: "hintNear",
   circle: "hintCircle",
@@ -19,7 +20,7 @@ export const HINTS: Record<Tool, Key> = {
 };
 
 /** An area as one draws it from a first place to a second. */
-function areaOf(tool: Exclude<Tool, "describe">, from: [number, number], to: [number, number]): Area {
+function areaOf(tool: AreaTool, from: [number, number], to: [number, number]): Area {
   const [wide, high] = [to[0] - from[0], to[1] - from[1]];
   const drawn = Math.hypot(wide, high);
   const size = drawn < LEAST ? USUAL[tool] : drawn;
@@ -30,7 +31,7 @@ function areaOf(tool: Exclude<Tool, "describe">, from: [number, number], to: [nu
 }
 
 /** Draws an area with a finger; null above the horizon. */
-export function draw(tool: Exclude<Tool, "describe">, camera: Camera, px: number, py: number, drawn: (area: Area, done: boolean) => void): Drag | null {
+export function draw(tool: AreaTool, camera: Camera, px: number, py: number, drawn: (area: Area, done: boolean) => void): Drag | null {
   const from = camera.ground(px, py);
   if (!from) return null;
   let to = from;
