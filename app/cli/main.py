@@ -190,16 +190,20 @@ def mcp(
     http_port: Annotated[
         int | None, typer.Option(help="serve streamable HTTP at http://127.0.0.1:PORT/mcp; default: stdin and stdout")
     ] = None,
+    allowed_host: Annotated[
+        list[str] | None,
+        typer.Option(help="host name by which a proxy reaches --http-port; may be repeated. Others get 421"),
+    ] = None,
 ) -> None:
     """Offer the running service as tools for agents (Model Context Protocol)."""
     from app.client import AsyncClient
-    from app.mcp import build_server
+    from app.mcp import allow_hosts, build_server
 
     server = build_server(AsyncClient(url, key))
     if http_port is None:
         server.run()
     else:
-        server.run("streamable-http", port=http_port)
+        server.run("streamable-http", port=http_port, transport_security=allow_hosts(allowed_host or []))
 
 
 @app.command()
