@@ -24,7 +24,11 @@ words. Repeat until there is no question. Read the warnings. `describe_place` de
 READ_ONLY: Final = ToolAnnotations(read_only_hint=True, idempotent_hint=True, open_world_hint=False)
 LOCAL_HOSTS: Final = ("127.0.0.1", "localhost", "[::1]")
 _COORDINATES: Final = (("lat", "lon"), ("lat", "lng"), ("latitude", "longitude"))
-_ARGUMENTS: Final = {"prior.position": "near", "prior.sigma_m": "near_m"}  # fields of the service by other names here
+_ARGUMENTS: Final = {
+    "prior.position": "near",
+    "prior.sigma_m": "near_m",
+    "position": "lat, lon",
+}  # by the service's names
 _DEGREES = re.compile(
     r"(?:geo:)?\s*([+-]?\d{1,3}(?:\.\d+)?)\s*°?\s*([NS]?)\s*[\s,;]\s*([+-]?\d{1,3}(?:\.\d+)?)\s*°?\s*([EW]?)", re.I
 )
@@ -115,8 +119,9 @@ def build_server(client: AsyncClient) -> MCPServer[Any]:
                     break
                 answers[question.id] = _choice(question, replies[question.id])
                 answer = await client.localize(words, answers=answers, **options)
-            if len(answers) < len(replies):  # questions that another text or position has led to
-                answer = await client.localize(words, answers=replies | answers, **options)
+            if len(answers) < len(replies):  # another text or position led to the questions that are left
+                left = {name: _unlisted(name, reply) for name, reply in replies.items() if name not in answers}
+                answer = await client.localize(words, answers=answers | left, **options)
         except ServiceError as error:
             raise _tool_error(error) from None
         return agent_answer(answer)
@@ -182,14 +187,19 @@ def _choice(question: Question, reply: str) -> str:
     return value
 
 
+def _unlisted(name: str, reply: str) -> str:
+    """Return a reply without the choices of its question; ids of open questions have no colon."""
+    return reply if ":" in name else choose(Question(name, "", (), is_open=True), reply) or reply
+
+
 def _tool_error(error: ServiceError) -> ToolError:
     """Return an error that names the arguments of the tool."""
-    fields = [(_ARGUMENTS.get(item["field"], item["field"]), item["message"]) for item in error.errors]
-    problems = [
-        f"{field}: is not on the map; send latitude, then longitude" if field == "near" else f"{field}: {message}"
-        for field, message in fields
-    ]
-    return ToolError("; ".join([str(error), *problems]))
+    problems = []
+    for item in error.errors:
+        name = _ARGUMENTS.get(item["field"], item["field"])
+        is_position = item["field"] in ("prior.position", "position")
+        problems.append(f"{name}: {'is not on the map, or swapped' if is_position else item['message']}")
+    return ToolError(f"{error.code}: {'; '.join(problems)}" if problems else str(error))
 
 
 def agent_answer(answer: LocalizeResponse) -> LocatedPerson:

@@ -19,10 +19,11 @@ _YES: Final = (
 )  # fmt: skip
 _NO: Final = (
     "no", "nope", "nah", "not", "none", "neither", "negative", "isnt", "arent", "dont", "cant", "cannot", "doesnt",
-    "nothing", "ei", "en", "nej", "ingen", "inget", "nein", "kein", "keine", "keinen", "nicht", "non", "pas", "aucun",
+    "nothing", "ei", "en nae", "nej", "ingen", "inget", "nein", "kein", "keine", "keinen", "nicht", "non", "pas", "aucun",
     "ningun", "ninguno", "ninguna",
 )  # fmt: skip
 _ANOTHER: Final = ("another", "other", "different", "else", *_NO)
+_NO_NAME: Final = frozenset((*_NO, "of", "them", "these", "those", "any", "there", "one"))
 _COUNTERS: Final = ("one", "choice", "option", "answer", "number")  # as in "the second one", "option 2"
 _ORDINALS: Final = {"1st": 1, "2nd": 2, "3rd": 3, "4th": 4, "5th": 5, "last": -1}  # "last": of those with a name
 _NUMBERS: Final = {"one": 1, "two": 2, "three": 3, "four": 4, "five": 5}
@@ -50,6 +51,8 @@ def choose(question: Question, reply: str) -> str | None:
         return values[number - 1 if number > 0 else number]
     if question.is_open:
         name = _without_fillers(words)
+        if _NO_NAME.issuperset(name.split()) and _has(name, _NO):
+            return UNKNOWN
         if not name or _has(words, ("yes", "no", "nope", "none", "neither")):
             return None
         return next((value for value, names in listed.items() if name in names), name)

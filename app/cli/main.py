@@ -18,6 +18,7 @@ from typer.core import TyperGroup
 from app.cli import data as cli_data
 from app.cli import maps as cli_maps
 from app.cli import measure as cli_measure
+from app.cli import records as cli_records
 from app.cli import reproduce as cli_reproduce
 from app.cli import train as cli_train
 from app.cli.aliases import aliases
@@ -220,6 +221,9 @@ def localize(
     refine: Annotated[Refine, typer.Option(help="how the position is found")] = DEFAULT_REFINE,
     as_json: Annotated[bool, typer.Option("--json", help="print JSON")] = False,
     picture: Annotated[Path | None, typer.Option(help="PNG file to draw the answer to")] = None,
+    record: Annotated[
+        Path | None, typer.Option(help="JSON file to write the request and the answer to, for 'hereabouts replay'")
+    ] = None,
 ) -> None:
     """Find the position of the speaker of a description."""
     from app.settings import open_index
@@ -228,6 +232,12 @@ def localize(
 
     if text != STDIN:
         split_hints(text)  # raises DescriptionError before anything is loaded
+    if record:
+        from app.records import check_request, write_answer
+
+        if text == STDIN:
+            raise typer.BadParameter("--record keeps one answer: give one description with it")
+        request = check_request(text, top_k=top_k, refine=refine)
     localizer = open_index(index_dir)
     make_query = partial(Query, top_k=top_k, refine=refine)
     if text == STDIN:
@@ -237,6 +247,8 @@ def localize(
         from index.answering.picture import draw_answer
 
         draw_answer(localizer, text, answer, picture)
+    if record:
+        write_answer(record, request, answer, localizer)
     if as_json:
         _print_json(answer)
     else:
@@ -299,6 +311,7 @@ for command in (
     cli_data.convert,
     cli_data.synth,
     cli_train.train,
+    cli_records.replay,
     cli_measure.evaluate,
     cli_measure.questions,
     cli_measure.descriptions,

@@ -160,9 +160,9 @@ def test_the_command_speaks_to_an_agent_over_http(url, until):
 def test_a_refusal_tells_the_agent_what_to_do(call):
     for refused, field in (
         (call("localize", description="..."), "description"),
-        (call("describe_place", lat=0.0, lon=0.0), "position"),
+        (call("describe_place", lat=0.0, lon=0.0), "invalid_request: lat, lon: is not on the map"),
         (call("localize", description=TEXT, near="60.17, 24.94", near_m=-1.0), "near_m"),
-        (call("localize", description=TEXT, near=[24.94, 60.17]), "near: is not on the map; send latitude"),
+        (call("localize", description=TEXT, near=[24.94, 60.17]), "near: is not on the map, or swapped"),
         (call("ask", description=TEXT, answers={str(n): "yes" for n in range(9)}), "at most 8"),
     ):
         assert refused.is_error
@@ -221,9 +221,9 @@ def test_an_unclear_reply_is_refused_with_the_choices(call):
 
 
 def test_a_reply_to_a_question_that_is_not_asked_is_sent_as_it_is(call, localizer):
-    call("ask", description=TEXT, answers={"q-bank": "yes", "near:tree": "no"})
+    call("ask", description=TEXT, answers={"q-bank": "yes", "near:tree": "no", "corner": "at Main Street"})
     sent = {reply.question: reply.choice for reply in localizer.batches[-1][0].replies}
-    assert sent == {"q-bank": "yes", "near:tree": "no"}
+    assert sent == {"q-bank": "yes", "near:tree": "no", "corner": "main street"}
 
 
 def test_the_server_has_the_version_of_the_package(url):
