@@ -56,7 +56,7 @@ class Record(BaseModel):
         """Write a file; the request has the fields that were given."""
         fields = {"request": self.request.model_dump(mode="json", exclude_unset=True)}
         document = self.model_dump(mode="json") | fields
-        replace_file(path, json.dumps(document, ensure_ascii=False, indent=1).encode() + b"\n")
+        write_text(path, json.dumps(document, ensure_ascii=False, indent=1) + "\n")
 
     def differences(self, response: LocalizeResponse) -> list[str]:
         """Return what differs in another answer, such as "status: "ok" -> "ambiguous""; provenance comes first."""
@@ -70,6 +70,14 @@ def check_request(text: str, **fields: object) -> LocalizeRequest:
         return LocalizeRequest.model_validate({"description": text, **fields})
     except ValidationError as error:
         raise DataError(f"this text cannot be recorded: {_problems(error)}") from None
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write a file; DataError if that is not possible."""
+    try:
+        replace_file(path, text.encode())
+    except OSError as error:
+        raise DataError(f"{path} cannot be written: {error.strerror}; give a file in a directory of yours") from None
 
 
 def write_answer(path: Path, request: LocalizeRequest, answer: Answer, localizer: "Localizer") -> None:

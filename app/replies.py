@@ -19,8 +19,8 @@ _YES: Final = (
 )  # fmt: skip
 _NO: Final = (
     "no", "nope", "nah", "not", "none", "neither", "negative", "isnt", "arent", "dont", "cant", "cannot", "doesnt",
-    "nothing", "ei", "en nae", "nej", "ingen", "inget", "nein", "kein", "keine", "keinen", "nicht", "non", "pas", "aucun",
-    "ningun", "ninguno", "ninguna",
+    "nothing", "ei", "en nae", "nej", "ingen", "inget", "nein", "kein", "keine", "keinen", "nicht", "non", "pas",
+    "aucun", "ningun", "ninguno", "ninguna",
 )  # fmt: skip
 _ANOTHER: Final = ("another", "other", "different", "else", *_NO)
 _NO_NAME: Final = frozenset((*_NO, "of", "them", "these", "those", "any", "there", "one"))
@@ -49,14 +49,16 @@ def choose(question: Question, reply: str) -> str | None:
     number = _number(words, question.is_open)
     if number is not None and number <= len(values):
         return values[number - 1 if number > 0 else number]
-    if question.is_open:
-        name = _without_fillers(words)
-        if _NO_NAME.issuperset(name.split()) and _has(name, _NO):
-            return UNKNOWN
-        if not name or _has(words, ("yes", "no", "nope", "none", "neither")):
-            return None
-        return next((value for value, names in listed.items() if name in names), name)
-    return _closed(words, listed)
+    return _name(_without_fillers(words), listed) if question.is_open else _closed(words, listed)
+
+
+def _name(name: str, listed: dict[str, tuple[str, str]]) -> str | None:
+    """Return the choice or the other name that answers an open question; "none of them" is no name."""
+    if _NO_NAME.issuperset(name.split()) and _has(name, _NO):
+        return UNKNOWN
+    if not name or _has(name, ("yes", "no", "nope", "none", "neither")):
+        return None
+    return next((value for value, names in listed.items() if name in names), name)
 
 
 def _closed(words: str, listed: dict[str, tuple[str, str]]) -> str | None:

@@ -17,11 +17,10 @@ def replay(
     html: Annotated[Path | None, typer.Option(help="page to write about the record, one sheet of A4")] = None,
 ) -> None:
     """Localize the description of a record again; the exit status is 1 if the answer differs."""
-    from app.records import Record, record_page
+    from app.records import Record, record_page, write_text
     from app.records import replay as replay_record
     from app.settings import open_index
     from index.build.artifact import DEFAULT_ALIAS, find_version
-    from models.files import replace_file
 
     record = Record.read(path)
     alias = record.request.index
@@ -29,7 +28,7 @@ def replay(
     response = replay_record(record, localizer)
     differences = record.differences(response)
     if html:
-        replace_file(html, record_page(path, record, differences, localizer).encode())
+        write_text(html, record_page(path, record, differences, localizer))
     old, new = record.answer.provenance, response.provenance
     if old.index_version != new.index_version:
         typer.echo(f"another index: {new.index_version}, the record is of {old.index_version}")

@@ -115,7 +115,7 @@ def _draw_map(
         spine.set_visible(False)
     if len(scenery.xyz_m):
         axes.scatter(scenery.xyz_m[:, 0], scenery.xyz_m[:, 1], s=0.6, c=scenery.rgb / 255, linewidths=0)
-    points_a_metre = 72 * axes.get_position().height * axes.figure.get_figheight() / (north - south)
+    points_a_metre = 72 * axes.bbox.height / DPI / (north - south)
     order = {"ground": 0, "walls": 1, "rising": 2}
     for kind, level in order.items():
         paints = load_look()[kind]

@@ -173,9 +173,9 @@ def test_nothing_found_is_said(call):
     result = call("localize", description="nowhere").structured_content
     assert (result["status"], result["best"], result["question"]) == ("no_match", None, None)
     assert (result["summary"], result["warnings"]) == ("Not found. nothing there", ["nothing there"])
-    asked = call("localize", description="nowhere asked").structured_content
-    assert asked["question"]["id"] == "street"
-    assert asked["summary"] == "Not found. Ask: Which street are you on? nothing there"
+    other = call("localize", description="nowhere asked").structured_content
+    assert other["question"]["id"] == "street"
+    assert other["summary"] == "Not found. Ask: Which street are you on? nothing there"
 
 
 def test_warnings_are_passed_on(call):

@@ -145,6 +145,13 @@ def test_a_text_that_the_service_refuses_is_not_recorded(tmp_path, use):
     assert not (tmp_path / "r.json").exists()
 
 
+def test_a_file_that_cannot_be_written_is_named(record):
+    missing = record.parent / "missing" / "file"
+    for result in (run("localize", TEXT, "--record", missing), run("replay", record, "--html", missing)):
+        assert result.exit_code == 1
+        assert "missing/file cannot be written: No such file or directory" in result.output
+
+
 class Visible(HTMLParser):
     """The elements of a page, and what it refers to."""
 
