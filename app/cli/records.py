@@ -39,7 +39,7 @@ def replay(
     if not differences:
         typer.echo("the answer is the same, to the digit")
         return
-    typer.echo(f"the answer differs in {len(differences)} values:")
+    typer.echo("the answer differs in")
     for difference in differences[:MAX_LINES]:
         typer.echo(f"  {difference}")
     if len(differences) > MAX_LINES:
