@@ -17,6 +17,7 @@ from typer.core import TyperGroup
 from app.cli import data as cli_data
 from app.cli import maps as cli_maps
 from app.cli import measure as cli_measure
+from app.cli import records as cli_records
 from app.cli import reproduce as cli_reproduce
 from app.cli import train as cli_train
 from app.cli.aliases import aliases
@@ -192,16 +193,20 @@ def mcp(
     http_port: Annotated[
         int | None, typer.Option(help="serve streamable HTTP at http://127.0.0.1:PORT/mcp; default: stdin and stdout")
     ] = None,
+    allowed_host: Annotated[
+        list[str] | None,
+        typer.Option(help="host name by which a proxy reaches --http-port; may be repeated. Others get 421"),
+    ] = None,
 ) -> None:
     """Offer the running service as tools for agents (Model Context Protocol)."""
     from app.client import AsyncClient
-    from app.mcp import build_server
+    from app.mcp import allow_hosts, build_server
 
     server = build_server(AsyncClient(url, key))
     if http_port is None:
         server.run()
     else:
-        server.run("streamable-http", port=http_port)
+        server.run("streamable-http", port=http_port, transport_security=allow_hosts(allowed_host or []))
 
 
 @app.command()
@@ -219,6 +224,9 @@ def localize(
     fields: Annotated[str, typer.Option(help=FIELDS_HELP)] = "{}",
     as_json: Annotated[bool, typer.Option("--json", help="print JSON")] = False,
     picture: Annotated[Path | None, typer.Option(help="PNG file to draw the answer to")] = None,
+    record: Annotated[
+        Path | None, typer.Option(help="JSON file to write the request and the answer to, for 'hereabouts replay'")
+    ] = None,
 ) -> None:
     """Find the position of the speaker of a description."""
     from app.http.errors import Problem
@@ -229,6 +237,12 @@ def localize(
     request = parse_fields(fields, top_k, refine)
     if text != STDIN:
         split_hints(text)  # raises DescriptionError before anything is loaded
+    if record:
+        from app.records import check_request, write_answer
+
+        if text == STDIN:
+            raise typer.BadParameter("--record keeps one answer: give one description with it")
+        request = check_request(text, top_k=top_k, refine=refine)
     localizer = open_index(index_dir)
     try:
         check_positions(request, localizer)
@@ -246,6 +260,8 @@ def localize(
         from index.answering.picture import draw_answer
 
         draw_answer(localizer, text, answer, picture)
+    if record:
+        write_answer(record, request, answer, localizer)
     if as_json:
         _print_json(answer)
     else:
@@ -309,6 +325,7 @@ for command in (
     cli_data.convert,
     cli_data.synth,
     cli_train.train,
+    cli_records.replay,
     cli_measure.evaluate,
     cli_measure.questions,
     cli_measure.descriptions,

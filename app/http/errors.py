@@ -87,7 +87,11 @@ class Code(Enum):
         "Its operator has to set HEREABOUTS_CORRECTIONS_FILE and serve a map with latitude and longitude.",
     )
     METHOD_NOT_ALLOWED = (405, "The path does not support this method", "Use a method of the Allow header.")
-    NOT_ACCEPTABLE = (406, "The format is not available", "Accept application/json or application/geo+json.")
+    NOT_ACCEPTABLE = (
+        406,
+        "The format is not available",
+        "Accept application/json, or another format that /docs lists.",
+    )
     NO_GEOREFERENCE = (406, "The map has no latitude and longitude", "Accept application/json.")
     BODY_TOO_SLOW = (408, "The body did not arrive in time", "Send it without pauses, or send a smaller body.")
     INDEX_BROKEN = (

@@ -6,8 +6,8 @@ from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
 
 from app.http.errors import PROBLEM_JSON, Code, Problem, ProblemBody
-from app.http.formats import geojson
-from app.http.formats.negotiation import GEOJSON, JSON
+from app.http.formats import geojson, pidf
+from app.http.formats.negotiation import GEOJSON, JSON, PIDF
 from app.http.keys import OPEN, SCHEMES
 
 PROBLEM_SCHEMA = {"$ref": f"#/components/schemas/{ProblemBody.__name__}"}
@@ -33,6 +33,12 @@ def geojson_content() -> dict[str, Any]:
     """Return the `responses={200: ...}` of a route that also answers in GeoJSON."""
     schema = {"type": "object", "required": ["type", "features"], "description": "RFC 7946 FeatureCollection"}
     return {"content": {GEOJSON: {"schema": schema, "example": geojson.EXAMPLE}}}
+
+
+def localize_content() -> dict[str, Any]:
+    """Return the `responses={200: ...}` of POST /localize: GeoJSON, and PIDF-LO."""
+    schema = {"type": "string", "description": "PIDF-LO (RFC 4119, RFC 5491, RFC 7459)"}
+    return {"content": {**geojson_content()["content"], PIDF: {"schema": schema, "example": pidf.EXAMPLE}}}
 
 
 def describe(app: FastAPI, needs_key: bool) -> dict[str, Any]:

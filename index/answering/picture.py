@@ -2,12 +2,14 @@
 
 import textwrap
 from collections.abc import Iterator, Sequence
+from io import BytesIO
 from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, PathPatch, Rectangle
 from matplotlib.path import Path as Line
@@ -18,7 +20,9 @@ from index.answering.localizer import Localizer
 from models.citymap.scenery.reading import AREA, LINE, POINT, DecodedScenery, Outline, load_look, read_scenery
 
 SIZE_IN: Final = (11.0, 6.2)
+WIDE_SIZE_IN: Final = (7.4, 3.3)  # across a sheet of A4
 DPI: Final = 130
+MARGIN: Final = 1.15  # of the map around circles
 MIN_REACH_M, REACH_RADII = 70.0, 1.6  # of the left map around the estimate, as on the page
 MAX_NAMES = 60  # candidates to draw, long streets first
 MIN_NAME_DISTANCE: Final = (0.16, 0.035)  # as shares of the sides; closer names would overlap
@@ -37,7 +41,7 @@ def draw_answer(localizer: Localizer, text: str, answer: Answer, path: Path) -> 
     whole = figure.add_axes((0.665, 0.05, 0.325, 0.8))
     x, y = answer.estimate.position
     aspect = 0.64 * SIZE_IN[0] / (0.8 * SIZE_IN[1])
-    west, south, east, north = _map_box(localizer)
+    west, south, east, north = localizer.facts.box_m
     map_m = max(y - south, north - y, (x - west) / aspect, (east - x) / aspect)  # show no more than the whole map
     reach = max(MIN_REACH_M, min(REACH_RADII * answer.estimate.radius_m.p90, map_m))
     wide = reach * aspect
@@ -51,6 +55,40 @@ def draw_answer(localizer: Localizer, text: str, answer: Answer, path: Path) -> 
     whole.plot(x, y, "o", ms=6, color=colours["accent"], mec="white", mew=1.2, zorder=8)
     _draw_captions(figure, localizer, text, answer)
     FigureCanvasAgg(figure).print_png(path)
+
+
+def draw_circles(localizer: Localizer, circles: Sequence[tuple[tuple[float, float], float]]) -> bytes | None:
+    """Return a PNG of numbered circles (center, radius_m) on the map; None if there are none, or no drawing of it.
+
+    Circles off the map are left out.
+    """
+    west, south, east, north = localizer.facts.box_m
+    diagonal_m = float(np.hypot(east - west, north - south))
+    inside = [
+        (number, center, min(radius_m, diagonal_m))
+        for number, (center, radius_m) in enumerate(circles, 1)
+        if _is_in(center, (west, south, east, north))
+    ]
+    scenery_part = localizer.scenery(0)
+    if scenery_part is None or not inside:
+        return None
+    scenery, colours = read_scenery(scenery_part.path), load_look()["light"]
+    figure = Figure(figsize=WIDE_SIZE_IN, dpi=DPI, facecolor="white")
+    axes = figure.add_axes((0, 0, 1, 1))
+    centers, radii = np.array([center for _, center, _ in inside]), np.array([[radius] for *_, radius in inside])
+    low, high = (centers - radii).min(axis=0), (centers + radii).max(axis=0)
+    aspect = WIDE_SIZE_IN[0] / WIDE_SIZE_IN[1]
+    (x, y), (width, height) = (low + high) / 2, (high - low) / 2
+    reach = max(MIN_REACH_M, MARGIN * height, MARGIN * width / aspect)
+    _draw_map(axes, scenery, (x - reach * aspect, y - reach, x + reach * aspect, y + reach), colours)
+    _draw_names(axes, scenery, colours)
+    for number, center, radius_m in reversed(inside):  # the likeliest on top
+        axes.add_patch(Circle(center, radius_m, fc=(*to_rgb(colours["accent"]), 0.12), ec=colours["accent"], zorder=6))
+        axes.plot(*center, "o", ms=13, color=colours["accent"], mec="white", mew=1.5, zorder=7)
+        axes.text(*center, str(number), color="white", weight="bold", fontsize=8, ha="center", va="center", zorder=8)
+    png = BytesIO()
+    FigureCanvasAgg(figure).print_png(png)
+    return png.getvalue()
 
 
 def _draw_captions(figure: Figure, localizer: Localizer, text: str, answer: Answer) -> None:
@@ -67,12 +105,6 @@ def _draw_captions(figure: Figure, localizer: Localizer, text: str, answer: Answ
     figure.text(0.99, 0.015, localizer.facts.attribution, fontsize=6, ha="right", **quiet)
 
 
-def _map_box(localizer: Localizer) -> tuple[float, float, float, float]:
-    centers, half = localizer.gallery.cells.center_m[:, :2], localizer.gallery.cells.size_m / 2
-    (west, south), (east, north) = centers.min(axis=0) - half, centers.max(axis=0) + half
-    return float(west), float(south), float(east), float(north)
-
-
 def _draw_map(
     axes: Axes, scenery: DecodedScenery, box: tuple[float, float, float, float], colours: dict[str, Any]
 ) -> None:
@@ -83,7 +115,7 @@ def _draw_map(
         spine.set_visible(False)
     if len(scenery.xyz_m):
         axes.scatter(scenery.xyz_m[:, 0], scenery.xyz_m[:, 1], s=0.6, c=scenery.rgb / 255, linewidths=0)
-    points_a_metre = 72 * axes.get_position().height * SIZE_IN[1] / (north - south)
+    points_a_metre = 72 * axes.bbox.height / DPI / (north - south)
     order = {"ground": 0, "walls": 1, "rising": 2}
     for kind, level in order.items():
         paints = load_look()[kind]

@@ -1,1 +1,1 @@
-"""Other formats of an answer: GeoJSON, Nominatim's JSON, and the negotiation between them."""
+"""Other formats of an answer: GeoJSON, Nominatim's JSON, PIDF-LO, and the negotiation between them."""

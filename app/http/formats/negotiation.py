@@ -17,6 +17,7 @@ from models.language.languages.translation import REPLY_LANGUAGES
 
 JSON = "application/json"
 GEOJSON = "application/geo+json"
+PIDF = "application/pidf+xml"
 _QUALITY = re.compile(r"0(\.\d{0,3})?|1(\.0{0,3})?")
 
 
@@ -29,12 +30,12 @@ def choose_media_type(accept: str, offers: Sequence[str]) -> str | None:
     return best if _quality(best, ranges) > 0 else None
 
 
-def negotiate(request: Request, frame: Frame) -> str:
-    """Return JSON, or GeoJSON if requested and the map is georeferenced; 406 if the client accepts neither."""
+def negotiate(request: Request, frame: Frame, located: Sequence[str] = (GEOJSON,)) -> str:
+    """Return JSON, or a requested format of `located`, which need a georeference; 406 if the client accepts none."""
     accept = ",".join(request.headers.getlist("accept"))
-    media_type = choose_media_type(accept, (JSON, GEOJSON) if frame.is_georeferenced else (JSON,))
+    media_type = choose_media_type(accept, (JSON, *located) if frame.is_georeferenced else (JSON,))
     if media_type is None:
-        raise Problem(Code.NO_GEOREFERENCE if choose_media_type(accept, (GEOJSON,)) else Code.NOT_ACCEPTABLE)
+        raise Problem(Code.NO_GEOREFERENCE if choose_media_type(accept, located) else Code.NOT_ACCEPTABLE)
     return media_type
 
 

@@ -16,9 +16,10 @@ from app.http.bodies import REFUSALS
 from app.http.dependencies import AllIndexes
 from app.http.errors import Code, Problem
 from app.http.formats.geojson import localize_collection
-from app.http.formats.negotiation import GEOJSON, language_headers, negotiate, negotiate_language, respond
+from app.http.formats.negotiation import GEOJSON, PIDF, language_headers, negotiate, negotiate_language, respond
+from app.http.formats.pidf import presence_document
 from app.http.middleware import descriptions_of, reply_languages_of
-from app.http.openapi import geojson_content, problems
+from app.http.openapi import localize_content, problems
 from app.http.protocol import LocalizerLike
 from app.http.queue import QUERY_ERRORS, InferenceQueue, ServedAnswer
 from app.http.schemas.requests import CorrectionRequest, DescribeRequest, LocalizeRequest
@@ -49,14 +50,17 @@ class AdmissionRoute(APIRoute):
 router = APIRouter(tags=["localize"], route_class=AdmissionRoute)
 
 
-@router.post("/localize", response_model=LocalizeResponse, responses={200: geojson_content(), **problems(*ERRORS)})
+@router.post("/localize", response_model=LocalizeResponse, responses={200: localize_content(), **problems(*ERRORS)})
 async def localize(request: Request, body: LocalizeRequest, indexes: AllIndexes) -> Response:
-    """Localize the speaker of a description; the answer is JSON, or GeoJSON if the Accept header requests it."""
+    """Localize the speaker of a description; the answer is JSON, or GeoJSON or PIDF-LO if Accept requests it."""
     async with indexes.lease(body.index) as queue:
         frame = queue.localizer.frame
-        media_type = negotiate(request, frame)
+        media_type = negotiate(request, frame, (GEOJSON, PIDF))
         check_positions(body, queue.localizer)
         response = await localize_for(request, body, queue)
+    if media_type == PIDF:
+        headers = language_headers(request)
+        return Response(presence_document(response), media_type=PIDF, headers=headers)
     content = localize_collection(response, frame) if media_type == GEOJSON else response
     return respond(content, media_type, language_headers(request))
 

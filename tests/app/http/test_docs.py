@@ -30,7 +30,11 @@ def test_openapi_describes_bodies_answers_and_problems(api, text):
                     [content] = response["content"].values()
                     assert content["schema"] == {"$ref": "#/components/schemas/ProblemBody"}
                     assert all(e["value"]["status"] == int(status) for e in content.get("examples", {}).values())
-    assert set(post["responses"]["200"]["content"]) == {"application/json", "application/geo+json"}
+    assert set(post["responses"]["200"]["content"]) == {
+        "application/json",
+        "application/geo+json",
+        "application/pidf+xml",
+    }
     schemas = document["components"]["schemas"]
     assert schemas["LocalizeRequest"]["examples"][0]["description"] == text
     assert schemas["LocalizeRequest"]["additionalProperties"] is False
