@@ -15,7 +15,7 @@ export interface paths {
         put?: never;
         /**
          * Localize
-         * @description Localize the speaker of a description; the answer is JSON, or GeoJSON if the Accept header requests it.
+         * @description Localize the speaker of a description; the answer is JSON, or GeoJSON or PIDF-LO if Accept requests it.
          */
         post: operations["localize_localize_post"];
         delete?: never;
@@ -36,6 +36,9 @@ export interface paths {
         /**
          * Batch
          * @description Localize several descriptions; an item that cannot be answered gets an error instead.
+         *
+         *     The answer to a CSV table in UTF-8 is the same table with the georeference terms of Darwin Core. A row without a
+         *     sure position has empty cells and the reason in georeferenceRemarks.
          */
         post: operations["batch_localize_batch_post"];
         delete?: never;
@@ -157,7 +160,9 @@ export interface paths {
         };
         /**
          * Search
-         * @description Localize the speaker of a description and answer like Nominatim; its other parameters are ignored.
+         * @description Localize the speaker of a description and answer like Nominatim.
+         *
+         *     The parameter accept-language replaces the header. Nominatim's other parameters are ignored.
          */
         get: operations["search_search_get"];
         put?: never;
@@ -180,6 +185,46 @@ export interface paths {
          * @description Describe a position and answer like Nominatim; its other parameters are ignored.
          */
         get: operations["reverse_reverse_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/lookup": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Lookup
+         * @description Describe where objects of OpenStreetMap are and answer like Nominatim; unknown ids are left out.
+         */
+        get: operations["lookup_lookup_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/status": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Status
+         * @description Report that searches are answered, as Nominatim does.
+         */
+        get: operations["status_status_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -402,9 +447,7 @@ export interface components {
              * Items
              * @description each like the body of POST /localize
              */
-            items: {
-                [key: string]: components["schemas"]["JsonValue"];
-            }[];
+            items: components["schemas"]["JsonValue"][];
         };
         /**
          * BatchResponse
@@ -1389,6 +1432,11 @@ export interface components {
              * @default []
              */
             contradicts: string[];
+            /**
+             * Source Id
+             * @description the named place that speaks most for it; null if none does
+             */
+            source_id?: string | null;
         };
         /**
          * Limits
@@ -1411,8 +1459,18 @@ export interface components {
              * @description items of one POST /localize/batch
              */
             max_items: number;
+            /**
+             * Max Rows
+             * @description rows of one POST /localize/batch with a CSV table
+             */
+            max_rows: number;
             /** Max Top K */
             max_top_k: number;
+            /**
+             * Max Vertices
+             * @description vertices of the polygons of one `within`
+             */
+            max_vertices: number;
             /** Max Queue */
             max_queue: number;
             /**
@@ -1645,6 +1703,7 @@ export interface components {
          *           ],
          *           "probability": 0.91,
          *           "radius_m": 60.3,
+         *           "source_id": "relation/1655211",
          *           "supports": [
          *             "Ateneum: 14 m to your right"
          *           ],
@@ -1989,6 +2048,8 @@ export interface components {
         /**
          * PriorPosition
          * @description A prior, for example a poor GPS fix; `position` is [x, y] in metres, or [lon, lat] with crs wgs84.
+         *
+         *     Give its error as a standard deviation, a circle or an ellipse; these contain the true position with `confidence`.
          */
         PriorPosition: {
             /** Position */
@@ -1996,8 +2057,30 @@ export interface components {
                 number,
                 number
             ];
-            /** Sigma M */
-            sigma_m: number;
+            /**
+             * Sigma M
+             * @description standard deviation in every direction
+             */
+            sigma_m?: number | null;
+            /**
+             * Radius M
+             * @description radius of the circle
+             */
+            radius_m?: number | null;
+            /** Semi Major M */
+            semi_major_m?: number | null;
+            /** Semi Minor M */
+            semi_minor_m?: number | null;
+            /**
+             * Orientation Deg
+             * @description direction of the major axis, clockwise from north
+             */
+            orientation_deg?: number | null;
+            /**
+             * Confidence
+             * @description by default 0.68
+             */
+            confidence?: number | null;
         };
         /**
          * Problem
@@ -2159,7 +2242,7 @@ export interface components {
         };
         /**
          * Within
-         * @description A filter on positions: answers lie inside it. Give either `bbox` or `circle`.
+         * @description A filter on positions: answers lie inside it. Give `bbox`, `circle`, or a GeoJSON geometry (RFC 7946).
          */
         Within: {
             /**
@@ -2173,13 +2256,14 @@ export interface components {
                 number
             ] | null;
             circle?: components["schemas"]["WithinCircle"] | null;
-        } & ({
-            bbox: unknown[];
-            circle?: null;
-        } | {
-            bbox?: null;
-            circle: Record<string, never>;
-        });
+            /** Type */
+            type?: ("Polygon" | "MultiPolygon") | null;
+            /**
+             * Coordinates
+             * @description with type: rings of a Polygon or polygons of a MultiPolygon, in metres, or [lon, lat] with crs wgs84
+             */
+            coordinates?: components["schemas"]["JsonValue"][] | null;
+        };
         /**
          * WithinCircle
          * @description A circle; `center` is [x, y] in metres, or [lon, lat] with crs wgs84.
@@ -2243,6 +2327,8 @@ export interface operations {
                      *       ]
                      *     } */
                     "application/geo+json": Record<string, never>;
+                    /** @example <presence xmlns="urn:ietf:params:xml:ns:pidf" entity="pres:5f0c@hereabouts.invalid"><note>status: no_match</note></presence> */
+                    "application/pidf+xml": string;
                 };
             };
             /** @description The body is not JSON */
@@ -2348,7 +2434,14 @@ export interface operations {
     };
     batch_localize_batch_post: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description of a CSV table: the column of the descriptions */
+                text?: string | null;
+                /** @description of a CSV table: the column with the language of the remarks, such as sv */
+                lang?: string | null;
+                /** @description an index that GET /info lists */
+                index?: string;
+            };
             header?: never;
             path?: never;
             cookie?: never;
@@ -2356,6 +2449,10 @@ export interface operations {
         requestBody: {
             content: {
                 "application/json": components["schemas"]["BatchRequest"];
+                /** @example id,text
+                 *     1,I am on Kaivokatu.
+                 *      */
+                "text/csv": string;
             };
         };
         responses: {
@@ -2366,10 +2463,32 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["BatchResponse"];
+                    /** @example id,text
+                     *     1,I am on Kaivokatu.
+                     *      */
+                    "text/csv": string;
                 };
             };
             /** @description The body is not JSON */
             400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description No such index */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The map has no latitude and longitude */
+            406: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -2906,18 +3025,31 @@ export interface operations {
     };
     search_search_get: {
         parameters: {
-            query: {
-                /** @description what is around the speaker, in plain words */
-                q: string;
-                /** @description as in Nominatim; xml is not supported */
-                format?: "json" | "jsonv2" | "geojson";
+            query?: {
+                format?: "xml" | "json" | "jsonv2" | "geojson" | "geocodejson";
+                /** @description add the parts of the address */
+                addressdetails?: boolean;
+                /** @description add the name by itself */
+                namedetails?: boolean;
+                /** @description an index that GET /info lists */
+                index?: string;
+                /** @description what is around the speaker, in plain words; or a latitude and a longitude */
+                q?: string | null;
+                /** @description a name or a kind of place; this and the next six instead of q */
+                amenity?: string | null;
+                /** @description house number and street */
+                street?: string | null;
+                city?: string | null;
+                county?: string | null;
+                state?: string | null;
+                country?: string | null;
+                postalcode?: string | null;
+                /** @description more than 40 means 40, and less than 1 means 1 */
                 limit?: number;
                 /** @description lon,lat,lon,lat: two corners of the preferred area */
                 viewbox?: string | null;
                 /** @description search only inside viewbox */
                 bounded?: boolean;
-                /** @description an index that GET /info lists */
-                index?: string;
             };
             header?: never;
             path?: never;
@@ -2953,6 +3085,7 @@ export interface operations {
                      *       ]
                      *     } */
                     "application/geo+json": Record<string, never>;
+                    "text/xml": string;
                 };
             };
             /** @description No such index */
@@ -3023,12 +3156,15 @@ export interface operations {
     reverse_reverse_get: {
         parameters: {
             query: {
-                lat: number;
-                lon: number;
-                /** @description as in Nominatim; xml is not supported */
-                format?: "json" | "jsonv2" | "geojson";
+                format?: "xml" | "json" | "jsonv2" | "geojson" | "geocodejson";
+                /** @description add the parts of the address */
+                addressdetails?: boolean;
+                /** @description add the name by itself */
+                namedetails?: boolean;
                 /** @description an index that GET /info lists */
                 index?: string;
+                lat: number;
+                lon: number;
             };
             header?: never;
             path?: never;
@@ -3064,6 +3200,7 @@ export interface operations {
                      *       ]
                      *     } */
                     "application/geo+json": Record<string, never>;
+                    "text/xml": string;
                 };
             };
             /** @description No such index */
@@ -3095,6 +3232,154 @@ export interface operations {
             };
             /** @description Internal error */
             500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The model is still loading; The service is shutting down; The index or the model could not be loaded */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+        };
+    };
+    lookup_lookup_get: {
+        parameters: {
+            query: {
+                format?: "xml" | "json" | "jsonv2" | "geojson" | "geocodejson";
+                /** @description add the parts of the address */
+                addressdetails?: boolean;
+                /** @description add the name by itself */
+                namedetails?: boolean;
+                /** @description an index that GET /info lists */
+                index?: string;
+                /** @description N, W or R and an osm_id of an answer, at most 50, with commas: N123,W456 */
+                osm_ids: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Nominatim's format; display_name is the place in words */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": unknown;
+                    /** @example {
+                     *       "type": "FeatureCollection",
+                     *       "features": [
+                     *         {
+                     *           "type": "Feature",
+                     *           "id": "estimate",
+                     *           "geometry": {
+                     *             "type": "Point",
+                     *             "coordinates": [
+                     *               24.9384,
+                     *               60.1699
+                     *             ]
+                     *           },
+                     *           "properties": {
+                     *             "kind": "estimate",
+                     *             "probability": 0.62
+                     *           }
+                     *         }
+                     *       ]
+                     *     } */
+                    "application/geo+json": Record<string, never>;
+                    "text/xml": string;
+                };
+            };
+            /** @description No such index */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The map has no latitude and longitude */
+            406: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The request is invalid */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description Internal error */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The model is still loading; The service is shutting down; The index or the model could not be loaded */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+        };
+    };
+    status_status_get: {
+        parameters: {
+            query?: {
+                format?: "text" | "json";
+                /** @description an index that GET /info lists */
+                index?: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": unknown;
+                };
+            };
+            /** @description No such index */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemBody"];
+                };
+            };
+            /** @description The request is invalid */
+            422: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -17,7 +17,7 @@ export class Table {
   private file = { name: "", mark: "", header: "", rows: [] as string[] };
   private running: AbortController | null = null;
 
-  constructor(private readonly limits: () => (api.Info["limits"] & { max_rows?: number }) | undefined) {
+  constructor(private readonly limits: () => api.Info["limits"] | undefined) {
     const file = h("input", { type: "file", accept: ".csv,.tsv,.txt,text/csv", onchange: () => (void this.open(file.files?.[0]), (file.value = "")) });
     this.element.append(h("summary", {}, t("tableTitle")), h("p", { className: "small" }, t("tableAdvice")), h("div", { className: "row" }, h("label", { className: "button" }, t("chooseFile"), file)), this.form, this.result);
     addEventListener("dragover", (event) => event.dataTransfer?.types.includes("Files") && event.preventDefault());
