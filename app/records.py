@@ -21,7 +21,6 @@ from app.http.schemas.responses import LocalizeResponse
 from index.answering.answers import Answer, Evidence
 from models.errors import DataError
 from models.files import replace_file
-from models.language.languages.translation import REPLY_LANGUAGES
 
 if TYPE_CHECKING:
     from index.answering.localizer import Localizer
@@ -87,23 +86,14 @@ def write_answer(path: Path, request: LocalizeRequest, answer: Answer, localizer
 
 
 def replay(record: Record, localizer: "Localizer") -> LocalizeResponse:
-    """Answer the request of a record again.
-
-    An answer does not name the language of its texts. If they differ in that of the description, the others are tried.
-    """
+    """Answer the request of a record again, in the language of its answer."""
     try:
         check_positions(record.request, localizer)
     except Problem as problem:
         reasons = "; ".join(f"{error.field} {error.message}" for error in problem.errors)
         raise DataError(f"the request does not fit this map: {reasons or problem.detail}") from None
-    responses = list[LocalizeResponse]()
-    for language in (None, *REPLY_LANGUAGES):
-        query = replace(record.request.to_query(), language=language)
-        [answer] = localizer.localize([query])
-        responses.append(LocalizeResponse.build(answer, localizer, "", {}, record.request.index))
-        if not record.differences(responses[-1]):
-            break
-    return min(responses, key=lambda response: len(record.differences(response)))
+    [answer] = localizer.localize([replace(record.request.to_query(), language=record.answer.language)])
+    return LocalizeResponse.build(answer, localizer, "", {}, record.request.index)
 
 
 def record_page(path: Path, record: Record, differences: Sequence[str], localizer: "Localizer") -> str:

@@ -80,13 +80,12 @@ class StrictBody:
                 raise problem from None
             if body is None:
                 return {"type": "http.disconnect"}
-            body = body.removeprefix(BOM_UTF8)
-            if media_type == CSV:
-                pass  # the route checks it
-            elif len(body) < LARGE_BODY_BYTES:
-                check_json(body)
-            else:
-                await asyncio.to_thread(check_json, body)
+            if media_type != CSV:  # the route checks tables
+                body = body.removeprefix(BOM_UTF8)
+                if len(body) < LARGE_BODY_BYTES:
+                    check_json(body)
+                else:
+                    await asyncio.to_thread(check_json, body)
             return {"type": "http.request", "body": body, "more_body": False}
 
         return receive_checked

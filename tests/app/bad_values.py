@@ -177,7 +177,7 @@ NO_BOX = [
 ]
 QUERIES: Table = {
     "GET /search": {
-        "q": [MARK * 500, f"{MARK}. " * 33],
+        "q": [MARK * 500, f"{MARK}. " * 201],
         "street": [MARK * 40],
         "format": NO_FORMAT,
         "limit": NO_DIGITS,

@@ -80,8 +80,7 @@ def _endpoint(path: str, responses: dict[int | str, dict[str, Any]]) -> Callable
 
     def add(function: Any) -> Any:
         router.add_api_route(path, function, responses=responses)
-        for other in (f"{path}/", f"{path}.php"):
-            router.add_api_route(other, function, include_in_schema=False)
+        router.add_api_route(f"{path}.php", function, include_in_schema=False)
         return function
 
     return add
@@ -151,7 +150,10 @@ async def lookup(request: Request, indexes: AllIndexes, sent: Annotated[LookupPa
     return respond_with_places(results, sent, queue.localizer.facts.attribution, language_headers(request))
 
 
-@_endpoint("/status", problems(Code.INVALID_REQUEST, Code.INDEX_NOT_FOUND, *UNAVAILABLE))
+STATUS: Final[dict[str, Any]] = {"content": {"text/plain": {"schema": {"type": "string"}}}}
+
+
+@_endpoint("/status", {200: STATUS, **problems(Code.INVALID_REQUEST, Code.INDEX_NOT_FOUND, *UNAVAILABLE)})
 async def status(
     indexes: AllIndexes,
     form: Annotated[Literal["text", "json"], Query(alias="format")] = "text",

@@ -98,6 +98,7 @@ class LocalizeResponse(_Out):
 
     request_id: str
     status: Status
+    language: str = Field(description="of the texts of this answer")
     estimate: Estimate | None = Field(description="null only if status is no_match")
     places: tuple[LikelyPlace, ...] = Field(
         description="at most five distinct places, likeliest first; the first is that of the estimate"

@@ -12,7 +12,7 @@ from typing import Any, Final
 
 from models.citymap.kinds.vocabulary import load_vocabulary
 from models.language.mentions.names import plain_words
-from models.language.mentions.unspaced import UNSPACED, unspaced_words
+from models.language.mentions.unspaced import UNSPACED, is_unspaced, unspaced_words
 
 DIRECTORY: Final = Path(__file__).parent
 MIN_SHARED: Final = 4  # letters that an inflected word and its base form begin with
@@ -21,7 +21,8 @@ MIN_SHORTENED: Final = 6  # letters of a word that may be a shorter form of anot
 MAX_DROPPED: Final = 3  # letters of a base form beyond these
 _SINGLE: Final = str.maketrans({"ß": "s", "æ": "a", "œ": "o", "ø": "o", "ł": "l", "đ": "d", "ı": "i", "İ": "i"})  # noqa: RUF001
 LETTER: Final = rf"[^\W{UNSPACED}]"  # next to a letter, a word begins or ends only at a space
-_GAP: Final = rf"(?:[\s'’-]+|(?<=[{UNSPACED}])|(?=[{UNSPACED}]))"  # noqa: RUF001
+_GAP: Final = r"[\s'’-]+"  # noqa: RUF001
+_UNSPACED_GAP: Final = r"[\s'’-]*"  # noqa: RUF001
 _PARTS: Final = (
     "words",
     "cues",
@@ -85,7 +86,7 @@ class LanguageTable:
         lists = (self._joined("words", name, " ").split() for name in ("and", "corner", "between", "articles"))
         self.stop |= {plain for words in lists for word in words if "*" not in word for plain in plain_words(word)}
         articles = _words(self._joined("words", "articles", " ").split())
-        self._between_words = rf"(?:(?:{articles}){_GAP})" + "{0,3}" if articles else ""
+        self._between_words = rf"(?:(?:{articles}){_gap(articles)})" + "{0,3}" if articles else ""
         self.elided_articles = frozenset(self._joined("words", "elided_articles", " ").split())
         self.ands = _pattern(self._joined("words", "and", " ").split(), lower)  # Italian "e" is "and", "è" is "is"
         corners = self._joined("words", "corner", " ").split()
@@ -148,8 +149,9 @@ class LanguageTable:
         ending = re.match(f"{LETTER}*", after)
         assert ending is not None
         after = after[ending.end() :]
-        lead = rf"(?<!{LETTER}){_words([before])}(?:{_GAP}{self._between_words}|{_GAP})$" if before.strip() else ""
-        tail = rf"\s*(?:\w+\s+)?{_words([after])}(?!{LETTER})" if after.strip() else ""
+        letter, gap = _letter(phrase), _gap(phrase)
+        lead = rf"(?<!{letter}){_words([before])}(?:{gap}{self._between_words}|{gap})$" if before.strip() else ""
+        tail = rf"\s*(?:\w+\s+)?{_words([after])}(?!{letter})" if after.strip() else ""
         return Phrase(re.compile(lead) if lead else None, re.compile(tail) if tail else None, None, fold(ending[0]))
 
     @cached_property
@@ -231,7 +233,7 @@ def _phrases(text: str) -> list[str]:
 def _words(phrases: Iterable[str], fold: Callable[[str], str] = fold) -> str:
     """Return the expression of one of several phrases; `*` stands for any ending."""
     folded = sorted({fold(phrase).strip() for phrase in phrases if phrase.strip()}, key=len, reverse=True)
-    return "|".join(_GAP.join(_word(word) for word in re.split(r"[\s'’-]+", phrase) if word) for phrase in folded)  # noqa: RUF001
+    return "|".join(_GAP.join(_word(word) for word in re.split(_GAP, phrase) if word) for phrase in folded)
 
 
 def _word(word: str) -> str:
@@ -241,7 +243,18 @@ def _word(word: str) -> str:
 
 def _pattern(phrases: Iterable[str], fold: Callable[[str], str] = fold) -> re.Pattern[str]:
     words = _words(phrases, fold)
-    return re.compile(rf"(?<!{LETTER})(?:{words})(?!{LETTER})") if words else re.compile(r"(?!)")
+    letter = _letter(words)
+    return re.compile(rf"(?<!{letter})(?:{words})(?!{letter})") if words else re.compile(r"(?!)")
+
+
+def _letter(phrase: str) -> str:
+    """Return the expression of a letter beside which a phrase neither begins nor ends."""
+    return LETTER if is_unspaced(phrase) else r"\w"
+
+
+def _gap(phrase: str) -> str:
+    """Return the expression of what is between a phrase and its thing."""
+    return _UNSPACED_GAP if is_unspaced(phrase) else _GAP
 
 
 @cache

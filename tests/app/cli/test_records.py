@@ -78,6 +78,7 @@ def test_a_record_of_the_service_can_be_replayed(record, api, use):
     answer = api.post("/localize", json=request).json()
     for place in answer["places"]:
         place["place"] = "in fi"  # as a client with Accept-Language: fi gets it
+    answer["language"] = "fi"
     record.write_text(json.dumps({"record_version": 1, "request": request, "answer": answer}))
     result = run("replay", record)
     assert result.exit_code == 0, result.output
@@ -138,9 +139,9 @@ def test_another_file_is_refused_in_one_line(record, content, message):
 
 def test_a_text_that_the_service_refuses_is_not_recorded(tmp_path, use):
     use(FakeLocalizer())
-    result = run("localize", "A tree. " * 40, "--record", tmp_path / "r.json")
+    result = run("localize", "A tree. " * 201, "--record", tmp_path / "r.json")
     assert result.exit_code == 1
-    assert "has 40 sentences" in result.output
+    assert "has 201 sentences" in result.output
     assert "one description" in run("localize", "-", "--record", tmp_path / "r.json").output
     assert not (tmp_path / "r.json").exists()
 

@@ -55,6 +55,7 @@ def test_concurrent_corrections_are_all_stored(correcting, file):
 
 def test_a_torn_line_stays_alone(file):
     append_line(file, b'{"text": "a"}')
+    assert file.stat().st_mode & 0o777 == 0o600
     with file.open("ab") as torn:
         torn.write(b'{"te')
     append_line(file, b'{"text": "b"}')

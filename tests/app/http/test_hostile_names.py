@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+from xml.etree.ElementTree import fromstring
 
 import httpx
 import pytest
@@ -63,8 +64,9 @@ def test_what_is_said_of_a_place_has_its_name_to_the_letter(here, place):
     assert name in described["description"]
     assert name in [fact["name"] for fact in described["hints"]]
     where = {"lat": described["wgs84"]["lat"], "lon": described["wgs84"]["lon"]}
-    result = plain(here.get("/reverse", params=where))
+    result = plain(here.get("/reverse", params={**where, "format": "jsonv2"}))
     assert name in result["display_name"]
+    assert name in fromstring(here.get("/reverse", params=where).content).findtext("result")
     assert name in result["extratags"]["description"]
 
 

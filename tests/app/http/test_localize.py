@@ -19,7 +19,7 @@ TREE = {"question": "near:tree", "choice": "yes"}
 def test_answer_has_exactly_the_names_of_the_api(api, text):
     body = api.post("/localize", json={"description": text, "top_k": 2}).json()
     assert set(body) == {
-        *("request_id", "status", "estimate", "places", "candidates", "other_probability"),
+        *("request_id", "status", "language", "estimate", "places", "candidates", "other_probability"),
         *("crs", "provenance", "timings_ms", "warnings", "evidence", "heat_map", "question", "ros"),
     }
     estimate = body["estimate"]
@@ -47,6 +47,7 @@ def test_answer_has_exactly_the_names_of_the_api(api, text):
         "wgs84": {"lat": 60.17, "lon": 24.94},
         "radius_m": 15,
         "place": None,
+        "source_id": "node/1",
         "supports": ["tree: 3 m to the east"],
         "contradicts": [],
     }

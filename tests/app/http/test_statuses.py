@@ -26,7 +26,8 @@ from models.errors import StoreUnavailable
 READ = "read-key-1"
 GEO, PICTURE = {"Accept": "application/geo+json"}, {"Accept": "image/png"}
 GEOCODER = ("GET /search", "GET /reverse", "GET /lookup", "GET /status")
-CORRECTIONS = "POST /corrections"
+CORRECTIONS, BATCH = "POST /corrections", "POST /localize/batch"
+CSV = {"Content-Type": "text/csv"}
 QUEUED = ("POST /localize", "POST /localize/batch", "POST /describe", "POST /evaluate", *GEOCODER, CORRECTIONS)
 DRAWN = ("GET /cells", "GET /cells/{cell_id}")
 CACHED = (*DRAWN, "GET /maps/{name}/points")
@@ -117,6 +118,20 @@ def forwarded_request(services, operation, patch):
 @provokes(404, "index_not_found", *OF_ONE_INDEX)
 def another_index(services, operation, patch):
     return of_index(services(), operation, "paris")
+
+
+def table(services, **params):
+    return ask(services, BATCH, params={"text": "a", **params}, content=b"a\r\na tree\r\n", headers=CSV)
+
+
+@provokes(404, "index_not_found", BATCH)
+def another_index_of_a_table(services, operation, patch):
+    return table(services(), index="paris")
+
+
+@provokes(406, "no_georeference", BATCH)
+def table_of_a_map_that_is_nowhere(services, operation, patch):
+    return table(services("nowhere", lambda: FakeLocalizer(Frame())))
 
 
 @provokes(404, "index_not_found", CORRECTIONS)

@@ -245,7 +245,7 @@ def test_a_saved_report_opens_and_what_is_none_is_refused(visit, tmp_path):
     page = visitor.page
     page.click("text=Measure how well it does")
     (tmp_path / "none.json").write_text("[1, 2]")
-    page.set_input_files("input[type=file]", tmp_path / "none.json")
+    page.set_input_files("input[accept*=json]", tmp_path / "none.json")
     page.wait_for_selector("text=This file is no report")
     report = {
         "data": "<b>town</b>", "split": "test", "model": "m", "method": "posterior", "queries": 3, "cells": 9,
@@ -253,7 +253,7 @@ def test_a_saved_report_opens_and_what_is_none_is_refused(visit, tmp_path):
         "places": {"truth": [[0, 0], [0, 0], [0, 0]], "estimate": [[3, 4], [30, 40], None]},
     }  # fmt: skip
     (tmp_path / "report.json").write_text(json.dumps(report))
-    page.set_input_files("input[type=file]", tmp_path / "report.json")
+    page.set_input_files("input[accept*=json]", tmp_path / "report.json")
     page.wait_for_selector(".report table")
     text = page.inner_text(".report")
     assert "<b>town</b>, test" in text

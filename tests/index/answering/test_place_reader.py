@@ -145,8 +145,8 @@ def test_another_language_is_read_by_its_table(localizer) -> None:
 
 
 def test_a_language_without_a_table_is_answered_by_names_with_a_warning(localizer) -> None:
-    result = answer(localizer, "私は East Street 2 と North Path 3 の角にいます。左にポストがあります")
-    assert any("Japanese" in warning for warning in result.warnings)
+    result = answer(localizer, "Az East Street 2 és a North Path 3 sarkán állok, balra tőlem egy postaláda van")
+    assert any("Hungarian" in warning for warning in result.warnings)
     assert result.estimate is not None
 
 

@@ -1822,6 +1822,11 @@ export interface components {
              * @enum {string}
              */
             status: "ok" | "ambiguous" | "no_match";
+            /**
+             * Language
+             * @description of the texts of this answer
+             */
+            language: string;
             /** @description null only if status is no_match */
             estimate: components["schemas"]["Estimate"] | null;
             /**
@@ -3367,6 +3372,7 @@ export interface operations {
                 };
                 content: {
                     "application/json": unknown;
+                    "text/plain": string;
                 };
             };
             /** @description No such index */
