@@ -22,6 +22,7 @@ _COVARIANCE: list[JsonValue] = [v if row == column else 0.0 for row in range(6) 
 ANSWERED: JsonValue = {
     "request_id": "5f0c1f3f8d4e4a0f9d5c3f7a1b2c3d4e",
     "status": "ambiguous",
+    "language": "en",
     "estimate": {
         "position": [105.0, -35.0],
         "method": "posterior",

@@ -1692,6 +1692,7 @@ export interface components {
          *         ],
          *         "spacing_m": 1.5
          *       },
+         *       "language": "en",
          *       "other_probability": 0.78,
          *       "places": [
          *         {
