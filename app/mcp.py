@@ -40,7 +40,7 @@ def parse_lat_lon(value: object) -> object:
         names = next((names for names in _COORDINATES if value.keys() == set(names)), ())
         return tuple(value[name] for name in names)
     if isinstance(value, str):
-        if not (match := _DEGREES.fullmatch(value.strip())):
+        if not (match := _DEGREES.fullmatch(" ".join(value.split()))):  # runs of spaces would take seconds
             raise ValueError('must be latitude and longitude in degrees, such as "60.165, 24.939"')
         lat, north, lon, east = match.groups()
         return float(lat) * (-1 if north.upper() == "S" else 1), float(lon) * (-1 if east.upper() == "W" else 1)

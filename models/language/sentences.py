@@ -5,6 +5,10 @@ from collections import Counter
 from collections.abc import Sequence
 
 from models.errors import DescriptionError
+from models.language.languages.detect import detect_languages
+from models.language.languages.table import load_table, table_codes
+from models.language.mentions.names import plain_words
+from models.language.mentions.word_lists import english
 
 # A sentence ends at . ! ? ; or a line break; a dot inside a number or an abbreviation's letter does not end one.
 _BREAK = re.compile(r"(?<=[.!?;。！？])(?<!\b\w\.)(?=\s|$)|[\r\n]+")  # noqa: RUF001  # Chinese and Japanese too
@@ -33,17 +37,27 @@ _MIN_TURNS = 2  # of a person, or time stamps of a text; fewer may be a form ("A
 def without_speakers(description: str) -> str:
     """Return a transcript with blanks in place of time stamps and names of speakers; any other text as it is.
 
-    A name before a colon is a speaker's if it is a role ("Caller"), or takes turns with another or after time stamps.
+    A name before a colon is a speaker's if it is a role ("Caller"), or takes turns with another or after time stamps;
+    everyday words are no names ("Left: a bank").
     """
     text, stamps = _TIME_STAMP.subn(_blank, description)
     turns = Counter(match["name"] for match in _SPEAKER.finditer(text))
     people = {name for name, count in turns.items() if count >= _MIN_TURNS}
+    if people:
+        everyday = _everyday_words(text)
+        people = {name for name in people if everyday.isdisjoint(plain_words(name))}
 
     def blank_speaker(match: re.Match[str]) -> str:
         takes_turns = match["name"] in people and (len(people) > 1 or stamps >= _MIN_TURNS)
         return _blank(match) if takes_turns or _ROLE.fullmatch(match["name"]) else match[0]
 
     return _SPEAKER.sub(blank_speaker, text)
+
+
+def _everyday_words(text: str) -> frozenset[str]:
+    """Return the everyday words of a text's languages that are not said of people."""
+    tables = (load_table((code,)).everyday for code in detect_languages(text) if code in table_codes())
+    return english().list("stop").union(*tables) - {"me", "you"}
 
 
 def _blank(match: re.Match[str]) -> str:

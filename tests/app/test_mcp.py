@@ -4,6 +4,7 @@ import asyncio
 import os
 import subprocess
 import sys
+import time
 from dataclasses import replace
 from importlib.metadata import version
 
@@ -16,7 +17,7 @@ from mcp import StdioServerParameters, stdio_client
 
 from app.client import AsyncClient
 from app.main import create_app
-from app.mcp import build_server
+from app.mcp import build_server, parse_lat_lon
 from app.settings import Settings
 from index.answering.answers import Choice, Question
 
@@ -204,6 +205,13 @@ def test_other_positions_are_refused(call, near):
     refused = call("localize", description=TEXT, near=near)
     assert refused.is_error
     assert "near" in refused.content[0].text
+
+
+def test_a_position_with_many_spaces_is_refused_at_once():
+    start_s = time.process_time()
+    with pytest.raises(ValueError, match="degrees"):
+        parse_lat_lon(f"60.17{' ' * 4000}here")
+    assert time.process_time() - start_s < 1
 
 
 def test_replies_are_read_with_the_choices_of_their_questions(call, localizer):

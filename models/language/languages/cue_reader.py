@@ -110,10 +110,10 @@ class TableCueReader:
     ) -> tuple[Relation, tuple[int, int]] | None:
         """Return the relation of the phrase round a thing, with the phrase's start and end; long phrases first."""
         best: tuple[Relation, tuple[int, int]] | None = None
+        others = [other for other in taken if other != (start, end)]
         for name, phrases in self._table.cues.items():
             for phrase in phrases if name in RELATIONS else ():
                 span = phrase.around(folded, start, end)
-                others = [other for other in taken if other != (start, end)]
                 if span is None or any(a < span[1] and span[0] < b for a, b in others):
                     continue
                 if best is None or span[1] - span[0] > best[1][1] - best[1][0]:

@@ -18,7 +18,7 @@ from models.language.mentions.names import STREET_ABBREVIATIONS, Word, full_word
 OTHER_STREET_WEIGHT: Final = 0.5  # of a number of a street that is not the nearest in the text
 MAX_PLACE_WORDS: Final = 5  # of a place with house numbers that is no street
 _CODE = r"(?:[A-Z]{1,3}-)?(?:\d{2,4}[ -]\d{2,4}|\d{4,6}|[A-Z]{1,2}\d[A-Z\d]? \d[A-Z]{2})(?!\w)"
-_NAME = r"[^\W\d_a-z][\w'’.-]*(?:[ -](?:(?:am|an|der|de|do|da|la|le|of|upon)[ -])?[^\W\d_a-z][\w'’.-]*){0,3}"  # noqa: RUF001
+_NAME = r"[^\W\d_a-z][\w'’.-]*(?: (?:(?:am|an|der|de|do|da|la|le|of|upon)[ -])?[^\W\d_a-z][\w'’.-]*){0,3}"  # noqa: RUF001
 # ", 00120 Helsinki, Finland"
 _TAIL = re.compile(
     rf"(?:\s*,\s*(?:{_CODE}\s*)?(?:{_NAME}(?:\s+{_CODE})?)?|\s+{_CODE}(?:\s+{_NAME})?)(?=\s*(?:[,.;!?)\n]|$))"

@@ -1,3 +1,5 @@
+import time
+
 import pytest
 
 from models.language.mentions.addresses import without_city
@@ -32,3 +34,12 @@ def test_the_city_and_country_at_the_end_are_left_out(lookup) -> None:
     assert without_city("next to Bottino, New York, USA", lookup) == "next to Bottino"
     assert without_city("next to Elmo, Rossi Bakery, Bottino", lookup) == "next to Elmo, Rossi Bakery, Bottino"
     assert without_city("Helsinki, Finland", lookup) == "Helsinki, Finland"
+
+
+@pytest.mark.parametrize("tail", ["A-" * 1900, "A " * 1900, "A." * 1900])
+def test_a_long_tail_takes_no_time(lookup, english, tail) -> None:
+    text = f"402 West 25th Street, {tail}@"
+    start_s = time.process_time()
+    find_mentions(text, lookup, english)
+    without_city(text, lookup)
+    assert time.process_time() - start_s < 5
