@@ -36,7 +36,8 @@ class ProxiedRequests(ProxyHeadersMiddleware):
             if client and client[0] in self.trusted_hosts:
                 root_path = _use_forwarded(scope, root_path)
             if root_path and scope["path"] == root_path:  # relative links of the page need the slash
-                await RedirectResponse(root_path + "/")(scope, receive, send)
+                query = scope["query_string"].decode("latin-1")
+                await RedirectResponse(root_path + "/" + (f"?{query}" if query else ""))(scope, receive, send)
                 return
             path = scope["path"]
             path = path.removeprefix(root_path) if path.startswith(root_path + "/") else path

@@ -28,7 +28,7 @@ _ROLE = re.compile(
     r"(?:(?:emergency |9-?1-?1 |112 )?(?:caller|dispatcher|operator|agent|speaker|call[- ]?taker|customer|driver)"
     r"|soittaja|päivystäjä|hätäkeskus|asiakas|kuljettaja|inringare|larmoperatör|operatör|kund|förare"
     r"|anrufer(?:in)?|disponent(?:in)?|leitstelle|kund(?:e|in)|fahrer(?:in)?|appelante?|opérat(?:eur|rice)|client"
-    r"|régulat(?:eur|rice)|chauffeur|llamante|operadora?|cliente|conductora?)(?: ?\d+)?|(?-i:[A-Z])\d?",
+    r"|régulat(?:eur|rice)|chauffeur|llamante|operadora?|cliente|conductora?)(?: ?\d+)?",
     re.I,
 )
 _MIN_TURNS = 2  # of a person, or time stamps of a text; fewer may be a form ("Address: ...")
@@ -41,14 +41,17 @@ def without_speakers(description: str) -> str:
     everyday words are no names ("Left: a bank").
     """
     text, stamps = _TIME_STAMP.subn(_blank, description)
+    if stamps < _MIN_TURNS and not _SPEAKER.search(text):
+        return description  # "5:30 train"
     turns = Counter(match["name"] for match in _SPEAKER.finditer(text))
-    people = {name for name, count in turns.items() if count >= _MIN_TURNS}
+    has_stamps = stamps >= _MIN_TURNS
+    people = {name for name, count in turns.items() if count >= _MIN_TURNS or (has_stamps and len(name) == 1)}
     if people:
         everyday = _everyday_words(text)
-        people = {name for name in people if everyday.isdisjoint(plain_words(name))}
+        people = {name for name in people if len(name) == 1 or everyday.isdisjoint(plain_words(name))}
 
     def blank_speaker(match: re.Match[str]) -> str:
-        takes_turns = match["name"] in people and (len(people) > 1 or stamps >= _MIN_TURNS)
+        takes_turns = match["name"] in people and (len(people) > 1 or has_stamps)
         return _blank(match) if takes_turns or _ROLE.fullmatch(match["name"]) else match[0]
 
     return _SPEAKER.sub(blank_speaker, text)

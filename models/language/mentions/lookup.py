@@ -92,6 +92,8 @@ class Lookup:
         self._nouns = self._plain_nouns()
         self._kinds = lru_cache(maxsize=MAX_CACHED_PHRASES)(self._kinds_of)
         self._streets = lru_cache(maxsize=MAX_CACHED_PHRASES)(self._streets_of)
+        self.street_form = lru_cache(maxsize=MAX_CACHED_PHRASES)(self._street_form_of)
+        self.named_form = lru_cache(maxsize=MAX_CACHED_PHRASES)(self._named_form_of)
         self._of_kinds: LRUCache[tuple[tuple[str, float], ...], Match | None] = LRUCache(MAX_CACHED_BYTES, _match_bytes)
 
     def word_weight(self, word: str) -> float:
@@ -117,7 +119,7 @@ class Lookup:
         weights = self._table.weight[rows]
         return Match(self._table.street[rows], weights, 1.0, bool(weights.max() == 1.0))
 
-    def street_form(self, words: Sequence[str]) -> Match | None:
+    def _street_form_of(self, words: tuple[str, ...]) -> Match | None:
         """Return the streets of a name in another case, or cut short: "Mannerheimintiellä", "Memhard-"."""
         for reading in _readings(words, self._table.street_words, self._street_beginnings, loosely=len(words) > 1):
             match = self.street(reading)
@@ -125,7 +127,7 @@ class Lookup:
                 return match
         return None
 
-    def named_form(self, words: Sequence[str]) -> Match | None:
+    def _named_form_of(self, words: tuple[str, ...]) -> Match | None:
         """Return the objects with a name in another case: "Stockmannin"."""
         for reading in _readings(words, self._table.words, self._name_beginnings):
             match = self.named(reading)

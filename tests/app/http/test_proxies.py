@@ -62,6 +62,7 @@ def test_the_page_at_the_root_path_gets_the_slash_that_its_links_need(connect):
     api = connect(root_path="/map")
     response = api.get("/map", headers={"Host": "evil.example"})
     assert (response.status_code, response.headers["location"]) == (307, "/map/")
+    assert api.get("/map?index=a").headers["location"] == "/map/?index=a"
 
 
 @pytest.mark.parametrize(("root_path", "slash"), [("", "/"), ("/map", ""), ("/info", "/"), ("/localize", "")])

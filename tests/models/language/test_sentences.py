@@ -155,6 +155,8 @@ def test_speakers_and_time_stamps_of_transcripts_become_blanks(text, lines) -> N
 @pytest.mark.parametrize(
     "text",
     [
+        "M: the sign of the metro\nB: an exit",
+        "5:30 train, the station is ahead",
         "Address: Bulevardi 5",
         "Address: Bulevardi 5\nLandmark: a church\nAddress: on the corner",
         "Left: a church\nRight: a park",
