@@ -5,6 +5,8 @@ from datetime import UTC, datetime, timedelta
 from typing import Final
 from xml.etree.ElementTree import Element, SubElement, register_namespace, tostring
 
+import numpy as np
+
 from app.http.schemas.responses import LocalizeResponse
 from index.answering.answers import Estimate, LatLon
 
@@ -18,6 +20,8 @@ NAMESPACES: Final = {
 }
 WGS84: Final = "urn:ogc:def:crs:EPSG::4326"  # latitude first
 METRES: Final = "urn:ogc:def:uom:EPSG::9001"
+DEGREES: Final = "urn:ogc:def:uom:EPSG::9102"
+MIN_AXIS_RATIO: Final = 1.5  # of an ellipse; a rounder one is a circle
 RETENTION: Final = timedelta(hours=24)  # the default of RFC 4119
 MIN_RADIUS_M: Final = 0.1
 EXAMPLE: Final = (
@@ -32,7 +36,8 @@ def presence_document(response: LocalizeResponse, now: datetime | None = None) -
     """Convert an answer to a presence document; without a position it has no tuple.
 
     It has one location, the estimate: several locations in a document have to describe the same place (RFC 5491, rule
-    3), so the other places stay out. The circle contains the person with 90 % probability, whichever place is right.
+    3), so the other places stay out. The shape contains the person with 90 % probability, whichever place is right: the
+    circle, or an ellipse of its area with the axes of the covariance.
     """
     presence = Element(_tag("presence"), entity=f"pres:{response.request_id}@hereabouts.invalid")  # names nobody
     if response.estimate is not None:
@@ -49,9 +54,19 @@ def _add_location(presence: Element, estimate: Estimate, wgs84: LatLon, now: dat
     entry = SubElement(presence, _tag("tuple"), id="estimate")
     geopriv = SubElement(SubElement(entry, _tag("status")), _tag("gp:geopriv"))
     location = SubElement(geopriv, _tag("gp:location-info"))
-    circle = SubElement(location, _tag("gs:Circle"), srsName=WGS84)
-    _add(circle, "gml:pos", f"{wgs84.lat:.7f} {wgs84.lon:.7f}")
-    _add(circle, "gs:radius", f"{max(estimate.radius_m.p90, MIN_RADIUS_M):.1f}", uom=METRES)
+    radius_m = max(estimate.radius_m.p90, MIN_RADIUS_M)
+    variances, axes = np.linalg.eigh(estimate.covariance)
+    ratio = float(np.sqrt(variances[1] / variances[0]))
+    is_ellipse = ratio > MIN_AXIS_RATIO
+    shape = SubElement(location, _tag("gs:Ellipse" if is_ellipse else "gs:Circle"), srsName=WGS84)
+    _add(shape, "gml:pos", f"{wgs84.lat:.7f} {wgs84.lon:.7f}")
+    if is_ellipse:
+        east, north = axes[:, 1]
+        _add(shape, "gs:semiMajorAxis", f"{radius_m * ratio**0.5:.1f}", uom=METRES)
+        _add(shape, "gs:semiMinorAxis", f"{max(radius_m / ratio**0.5, MIN_RADIUS_M):.1f}", uom=METRES)
+        _add(shape, "gs:orientation", f"{np.degrees(np.arctan2(east, north)) % 180:.1f}", uom=DEGREES)  # from north
+    else:
+        _add(shape, "gs:radius", f"{radius_m:.1f}", uom=METRES)
     _add(location, "con:confidence", "90", pdf="normal")
     rules = SubElement(geopriv, _tag("gp:usage-rules"))
     _add(rules, "gbp:retransmission-allowed", "false")

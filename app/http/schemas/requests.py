@@ -191,15 +191,11 @@ class LocalizeRequest(DescriptionFields):
         return points
 
 
-class DescribeRequest(Body):
-    """A position to describe."""
-
-    model_config = ConfigDict(json_schema_extra={"examples": [DESCRIBE_EXAMPLE]})
+class PositionFields(Body):
+    """A position with its reference system."""
 
     position: Point = Field(description="[x, y] in metres, or [lon, lat] with crs wgs84")
     crs: Crs = Field("map", description="the reference system of position")
-    deadline_ms: DeadlineMs = DEFAULT_DEADLINE_MS
-    index: IndexName = DEFAULT_ALIAS
 
     @model_validator(mode="after")
     def _is_on_earth(self) -> Self:
@@ -211,26 +207,24 @@ class DescribeRequest(Body):
         return [("position", self.position)]
 
 
-class CorrectionRequest(Body):
+class DescribeRequest(PositionFields):
+    """A position to describe."""
+
+    model_config = ConfigDict(json_schema_extra={"examples": [DESCRIBE_EXAMPLE]})
+
+    deadline_ms: DeadlineMs = DEFAULT_DEADLINE_MS
+    index: IndexName = DEFAULT_ALIAS
+
+
+class CorrectionRequest(PositionFields):
     """A request to POST /localize and the true position of its speaker."""
 
     model_config = ConfigDict(json_schema_extra={"examples": [CORRECTION_EXAMPLE]})
 
     request: LocalizeRequest
-    position: Point = Field(description="[x, y] in metres, or [lon, lat] with crs wgs84")
-    crs: Crs = Field("map", description="the reference system of position")
     place_rank: Annotated[int, Strict(), Field(ge=1, le=MAX_PLACES)] | None = Field(
         None, description="which of the answer's places is right, from 1; null if none is"
     )
-
-    @model_validator(mode="after")
-    def _is_on_earth(self) -> Self:
-        check_degrees(self.crs, self.points())
-        return self
-
-    def points(self) -> list[tuple[str, Point]]:
-        """Return the (x, y) or (lon, lat) of the correction with the name of its field."""
-        return [("position", self.position)]
 
 
 class EvaluateQuery(DescriptionFields):

@@ -119,9 +119,10 @@ class Lookup:
         weights = self._table.weight[rows]
         return Match(self._table.street[rows], weights, 1.0, bool(weights.max() == 1.0))
 
-    def _street_form_of(self, words: tuple[str, ...]) -> Match | None:
-        """Return the streets of a name in another case, or cut short: "Mannerheimintiellä", "Memhard-"."""
-        for reading in _readings(words, self._table.street_words, self._street_beginnings, loosely=len(words) > 1):
+    def _street_form_of(self, words: tuple[str, ...], may_be_short: bool = True) -> Match | None:
+        """Return the streets of a name in another case or, if it `may_be_short`, without its kind: "Memhard-"."""
+        known, beginnings = self._table.street_words, self._street_beginnings
+        for reading in _readings(words, known, beginnings, loosely=len(words) > 1, may_be_short=may_be_short):
             match = self.street(reading)
             if match is not None:
                 return match
@@ -319,12 +320,22 @@ def _by_beginning(words: Iterable[str]) -> Mapping[str, list[str]]:
 
 
 def _readings(
-    words: Sequence[str], known: Container[str], beginnings: Mapping[str, list[str]], *, loosely: bool = False
+    words: Sequence[str],
+    known: Container[str],
+    beginnings: Mapping[str, list[str]],
+    *,
+    loosely: bool = False,
+    may_be_short: bool = True,
 ) -> Iterator[tuple[str, ...]]:
     """Yield the names of which words may be a form, likely ones first."""
     options = []
     for word in words:
-        near = [base for base in beginnings.get(word[:SHORT_BEGINNING], ()) if _is_form(word, base, loosely)]
+        similar = beginnings.get(word[:SHORT_BEGINNING], ())
+        near = [
+            base
+            for base in similar
+            if is_inflected(word, base, loosely=loosely) or (may_be_short and _is_without_kind(word, base))
+        ]
         near.sort(key=lambda base: (-shared_letters(word, base), len(base)))
         options.append([word] if word in known or not near else near[:MAX_BASES])
     for reading in islice(product(*options), MAX_READINGS):
@@ -332,8 +343,8 @@ def _readings(
             yield reading
 
 
-def _is_form(word: str, base: str, loosely: bool) -> bool:
-    return is_inflected(word, base, loosely=loosely) or any(base == word + kind for kind in COMPOUND_KINDS)
+def _is_without_kind(word: str, base: str) -> bool:
+    return any(base == word + kind for kind in COMPOUND_KINDS)
 
 
 def _singulars(word: str) -> list[str]:

@@ -42,7 +42,8 @@ def match_street(
         numbered = _numbered(words, first, plain, lookup, table)
         if numbered is not None:
             return numbered, STREET_SCORE + WORD_SCORE * len(plain) + TYPE_SCORE
-        match = lookup.street_form(plain)
+        is_noun = len(plain) == 1 and bool(table.kinds(plain))  # Finnish "kirkko", a church, is not Kirkkokatu
+        match = lookup.street_form(plain, not is_noun)
     if match is None and len(plain) == 1:
         match = lookup.street_like(plain[0])
     if match is None or not _is_meant(words, first, last, match, has_type, lookup, inflects=table is not None):

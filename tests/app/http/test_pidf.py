@@ -54,6 +54,28 @@ def test_one_circle_contains_the_person_with_90_percent(presence, text):
     assert texts(document, "pidf:note") == ["status: ok", "© nobody"]
 
 
+@pytest.mark.parametrize(
+    ("covariance", "orientation"),
+    [
+        (((400.0, 0.0), (0.0, 100.0)), "90.0"),  # east and west
+        (((100.0, 0.0), (0.0, 400.0)), "0.0"),
+        (((250.0, 150.0), (150.0, 250.0)), "45.0"),  # northeast, clockwise from north
+    ],
+)
+def test_a_long_distribution_is_an_ellipse_of_the_circle_s_area(presence, fake, monkeypatch, covariance, orientation):
+    def long(query):
+        answer = FakeLocalizer._answer(fake, query)
+        return replace(answer, estimate=replace(answer.estimate, covariance=covariance))
+
+    monkeypatch.setattr(fake, "_answer", long)
+    document = presence("a tree")
+    [major], [minor] = texts(document, "gs:Ellipse/gs:semiMajorAxis"), texts(document, "gs:Ellipse/gs:semiMinorAxis")
+    assert float(major) / float(minor) == pytest.approx(2, rel=0.01)
+    assert float(major) * float(minor) == pytest.approx(21**2, rel=0.01)
+    assert texts(document, "gs:Ellipse/gs:orientation") == [orientation]
+    assert texts(document, "gs:Circle") == []
+
+
 def test_the_location_is_kept_for_a_day_and_not_sent_on(presence, text):
     document = presence(text)
     [expiry], [made] = texts(document, "gbp:retention-expiry"), texts(document, "pidf:timestamp")

@@ -699,7 +699,6 @@ export interface components {
          *     }
          */
         CorrectionRequest: {
-            request: components["schemas"]["LocalizeRequest"];
             /**
              * Position
              * @description [x, y] in metres, or [lon, lat] with crs wgs84
@@ -715,6 +714,7 @@ export interface components {
              * @enum {string}
              */
             crs: "map" | "wgs84";
+            request: components["schemas"]["LocalizeRequest"];
             /**
              * Place Rank
              * @description which of the answer's places is right, from 1; null if none is

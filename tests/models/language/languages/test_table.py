@@ -11,8 +11,8 @@ from models.language.languages.table import DIRECTORY, LanguageTable, fold, is_i
 from models.language.mentions.cues import Relation
 from models.language.mentions.lookup import Lookup
 from models.language.mentions.name_table import NameTable
-from models.language.mentions.names import plain_words, street_forms
-from models.language.mentions.street_spans import WINDS
+from models.language.mentions.names import plain_words, split_words, street_forms
+from models.language.mentions.street_spans import WINDS, match_street
 from models.strings import Postings
 
 FORMS = [line.split("\t") for line in (Path(__file__).parent / "finnish_streets.tsv").read_text("utf-8").splitlines()]
@@ -90,6 +90,15 @@ def test_finnish_streets_are_found_in_every_case(streets, form, name) -> None:
     match = lookup.street(words) or lookup.street_form(words)
     assert match is not None
     assert names[match.objects[0]] == name
+
+
+def test_a_noun_is_no_street_without_its_kind(streets) -> None:
+    lookup, names = streets
+    match = lookup.street_form(("kirkko",))
+    assert match is not None
+    assert names[match.objects[0]] == "Kirkkokatu"
+    words = split_words("kirkko on vasemmalla")  # the church is on the left
+    assert match_street(words, 0, 0, ("kirkko",), lookup, table=load_table(("fi",))) is None
 
 
 def test_every_table_is_in_utf_8() -> None:
