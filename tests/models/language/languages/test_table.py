@@ -71,16 +71,20 @@ def test_inflected_words(word, base, result) -> None:
     assert is_inflected(word, base) is result
 
 
-@pytest.fixture(scope="module")
-def streets() -> tuple[Lookup, list[str]]:
-    names = sorted({name for _, name in FORMS})
+def street_lookup(names: list[str]) -> Lookup:
     forms = [(" ".join(form), weight, n) for n, name in enumerate(names) for form, weight in street_forms(name)]
     none = Postings.from_pairs(())
     by_form = Postings.from_pairs((form, row) for row, (form, _, _) in enumerate(forms))
     by_word = Postings.from_pairs((word, 0) for form, _, _ in forms for word in form.split())
     street, weight = np.array([n for *_, n in forms]), np.array([weight for _, weight, _ in forms])
     table = NameTable(none, none, none, none, none, by_form, by_word, street, weight)
-    return Lookup(EMPTY_GAZETTEER, load_vocabulary(), lambda word: False, table), names
+    return Lookup(EMPTY_GAZETTEER, load_vocabulary(), lambda word: False, table)
+
+
+@pytest.fixture(scope="module")
+def streets() -> tuple[Lookup, list[str]]:
+    names = sorted({name for _, name in FORMS})
+    return street_lookup(names), names
 
 
 @pytest.mark.parametrize(("form", "name"), FORMS)
@@ -90,6 +94,15 @@ def test_finnish_streets_are_found_in_every_case(streets, form, name) -> None:
     match = lookup.street(words) or lookup.street_form(words)
     assert match is not None
     assert names[match.objects[0]] == name
+
+
+@pytest.mark.parametrize(("text", "number"), [("la 24 oeste", 1), ("la 24 este", 0)])
+def test_the_wind_of_a_numbered_street_counts(text, number) -> None:
+    lookup = street_lookup(["East 24th Street", "West 24th Street"])
+    words = split_words(text)
+    match = match_street(words, 1, 2, tuple(word.plain for word in words[1:]), lookup, table=load_table(("es",)))
+    assert match is not None
+    assert match[0].objects.tolist() == [number]
 
 
 def test_a_noun_is_no_street_without_its_kind(streets) -> None:

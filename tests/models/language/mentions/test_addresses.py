@@ -1,8 +1,13 @@
 import time
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
-from models.language.mentions.addresses import without_city
+from models.language.mentions.addresses import add_addresses, without_city
+from models.language.mentions.house_numbers import NumberMatch
+from models.language.mentions.lookup import NO_LINES, AddressMatch
+from models.language.mentions.mentions import Mention
 from models.language.mentions.reader import find_mentions
 
 
@@ -28,6 +33,33 @@ def test_what_was_assumed_is_a_warning(lookup, english) -> None:
 def test_the_number_is_elsewhere_than_its_street(lookup, english) -> None:
     forms = [(m.form, m.text) for m in find_mentions("on West 25th Street, at the door of 402", lookup, english)]
     assert ("address", "402") in forms
+
+
+def place(text: str, name: str, number: int) -> Mention:
+    start = text.index(name)
+    return Mention(name, start, start + len(name), "street", np.array([number]), np.ones(1))
+
+
+def test_a_number_at_a_corner_may_be_of_either_street() -> None:
+    text = "hoek van Elmstraat en Oakstraat. Rechts is huisnummer 9"
+    lookup = SimpleNamespace(
+        address=lambda _number, streets: AddressMatch(streets + 10, NO_LINES, NumberMatch(("9",))),
+        has_numbers=lambda _name: False,
+    )
+    mentions = add_addresses([place(text, "Elmstraat", 1), place(text, "Oakstraat", 2)], text, lookup)
+    [address] = [mention for mention in mentions if mention.form == "address"]
+    assert dict(zip(address.objects.tolist(), address.weights.tolist(), strict=True)) == {12: 1.0, 11: 0.5}
+
+
+def test_a_whole_name_with_numbers_is_rather_meant_than_a_street_of_a_part_of_it() -> None:
+    text = "67 Boulevard de Rochechouart"
+    lookup = SimpleNamespace(
+        address=lambda _number, _streets: None,
+        has_numbers=lambda name: name == ("boulevard", "de", "rochechouart"),
+        address_of_names=lambda _number, _names: AddressMatch(np.array([5]), NO_LINES, NumberMatch(("67",))),
+    )
+    [address] = add_addresses([place(text, "Rochechouart", 1)], text, lookup)
+    assert (address.form, address.text, address.objects.tolist()) == ("address", text, [5])
 
 
 def test_the_city_and_country_at_the_end_are_left_out(lookup) -> None:
